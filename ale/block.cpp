@@ -1,0 +1,206 @@
+#include "ale/block.hpp"
+
+#include "core/hex_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ballast {
+
+namespace {
+
+constexpr int cells_per_tile = 4096;
+
+/// Mass share of the lower node of cell [a, b]: integral of N_low (times r in RZ) over that of 1.
+double low_share_of(double a, double b, bool radial) {
+  return radial ? (2 * a + b) / (3 * (a + b)) : 0.5;
+}
+
+template <int Dim>
+void place_nodes(Block<Dim>& b, const std::array<std::vector<double>, 3>& lines) {
+  const Grid& g = b.grid;
+  const auto line = [&](int axis, int i) {
+    const auto& l = lines[static_cast<std::size_t>(axis)];
+    const int n = static_cast<int>(l.size()) - 1;
+    const auto at = [&](int q) { return l[static_cast<std::size_t>(q)]; };
+    // Ghost nodes mirror about the boundary node.
+    return i < 0 ? 2 * at(0) - at(std::min(-i, n)) : i > n ? 2 * at(n) - at(std::max(2 * n - i, 0)) : at(i);
+  };
+  for (int k = -g.ghost[2]; k < g.node_planes() - g.ghost[2]; ++k) {
+    for (int j = -g.ghost[1]; j <= g.cells[1] + g.ghost[1]; ++j) {
+      const int r = g.node_row(j, k);
+      for (int i = -g.ghost[0]; i <= g.cells[0] + g.ghost[0]; ++i) {
+        const int index[3] = {i, j, k};
+        for (int d = 0; d < Dim; ++d) {
+          b.target[static_cast<std::size_t>(d)].row(r)[i] = line(d, index[d]);
+        }
+      }
+    }
+  }
+  for (int d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    b.low_share[axis].assign(static_cast<std::size_t>(g.cells[axis] + 2 * g.ghost[axis]), 0.5);
+    for (int i = 0; i < g.cells[axis]; ++i) {
+      b.low_share[axis][static_cast<std::size_t>(i + g.ghost[axis])] =
+          low_share_of(line(d, i), line(d, i + 1), b.axisymmetric && d == 0);
+    }
+  }
+}
+
+} // namespace
+
+template <int Dim>
+void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lines) {
+  std::array<int, 3> n = {1, 1, 1};
+  for (std::size_t d = 0; d < Dim; ++d) {
+    n[d] = static_cast<int>(lines[d].size()) - 1;
+  }
+  b.grid = Grid(Dim, n);
+  const Grid& g = b.grid;
+  for (auto* nodes : {&b.position, &b.velocity, &b.next_position, &b.next_velocity, &b.target}) {
+    nodes->fill(RowField::of_nodes(g));
+  }
+  b.node_mass = RowField::of_nodes(g);
+  place_nodes(b, lines);
+  b.position = b.target;
+  for (auto* f : {&b.volume, &b.next_volume, &b.density, &b.pressure, &b.modulus, &b.wave_speed}) {
+    *f = RowField::of_cells(g);
+  }
+  for (auto* fs : {&b.strain_rate, &b.length, &b.viscosity}) {
+    fs->fill(RowField::of_cells(g));
+  }
+  for (auto* fs : {&b.swept, &b.mass_flux}) {
+    fs->fill(RowField::of_cells(g));
+  }
+  b.owner.assign(static_cast<std::size_t>(g.cell_pitch()) * static_cast<std::size_t>(g.cell_rows()), 0);
+  const int rows_per_tile = std::max(1, cells_per_tile / g.cell_pitch());
+  bool strength = false;
+  for (MaterialSlot& slot : b.materials) {
+    slot.strength = !slot.is_void && has_strength(slot.material.strength);
+    strength = strength || slot.strength;
+    const int conserved = slot.is_void ? 1 : 3 + (slot.strength ? stress_components<Dim> + 1 : 0);
+    slot.store = TileStore(g, rows_per_tile, conserved, slot.is_void ? 0 : 2);
+  }
+  if (strength) {
+    b.stress.fill(RowField::of_cells(g));
+  }
+  for (int k = 0; k < g.cells[2]; ++k) {
+    for (int j = 0; j < g.cells[1]; ++j) {
+      cell_volumes(b, b.position, j, k, b.volume.row(g.cell_row(j, k)));
+    }
+  }
+  exchange_cells(g, b.volume);
+}
+
+template <int Dim> void compute_node_mass(Block<Dim>& b) {
+  const Grid& g = b.grid;
+  std::fill(b.node_mass.data().begin(), b.node_mass.data().end(), 0.0);
+  for (int k = 0; k < g.cells[2]; ++k) {
+    for (int j = 0; j < g.cells[1]; ++j) {
+      const int r = g.cell_row(j, k);
+      for (int corner = 0; corner < (1 << Dim); ++corner) {
+        const int di = corner & 1, dj = (corner >> 1) & 1, dk = (corner >> 2) & 1;
+        const auto share = [&](std::size_t axis, int cell, int high) {
+          const double low = b.low_share[axis][static_cast<std::size_t>(cell + g.ghost[axis])];
+          return high ? 1 - low : low;
+        };
+        double row_share = share(1, j, dj);
+        if constexpr (Dim == 3) {
+          row_share *= share(2, k, dk);
+        }
+        double* m = b.node_mass.row(g.node_row(j + dj, k + dk));
+        for (const MaterialSlot& slot : b.materials) {
+          if (slot.is_void || !slot.store.has_row(r)) {
+            continue;
+          }
+          const double* mass = slot.store.row(field::mass, r);
+          for (int i = 0; i < g.cells[0]; ++i) {
+            m[i + di] += row_share * share(0, i, di) * mass[i];
+          }
+        }
+      }
+    }
+  }
+}
+
+template <int Dim> void compute_owner(Block<Dim>& b, int row) {
+  constexpr double pure_enough = 1 - 1e-12; // what a remap's round-off leaves of others
+  const int count = b.grid.cells[0];
+  std::int8_t* owner = b.owner_row(row);
+  std::fill(owner, owner + count, mixed_cell);
+  for (std::size_t m = 0; m < b.materials.size(); ++m) {
+    if (!b.materials[m].store.has_row(row)) {
+      continue;
+    }
+    const double* f = std::as_const(b.materials[m].store).row(field::fraction, row);
+    for (int i = 0; i < count; ++i) {
+      if (f[i] >= pure_enough) {
+        owner[i] = static_cast<std::int8_t>(m);
+      }
+    }
+  }
+}
+
+void RowRuns::scan(const std::int8_t* owner, int count) {
+  pure.clear();
+  mixed.clear();
+  for (int i = 0; i < count;) {
+    if (owner[i] == mixed_cell) {
+      mixed.push_back(i++);
+      continue;
+    }
+    int end = i + 1;
+    while (end < count && owner[end] == owner[i]) {
+      ++end;
+    }
+    pure.push_back({owner[i], i, end});
+    i = end;
+  }
+}
+
+void cell_volumes(const Block<2>& b, const std::array<RowField, 2>& x, int j, int, double* volume) {
+  const Grid& g = b.grid;
+  const double *x0 = x[0].row(g.node_row(j, 0)), *x1 = x[0].row(g.node_row(j + 1, 0));
+  const double *y0 = x[1].row(g.node_row(j, 0)), *y1 = x[1].row(g.node_row(j + 1, 0));
+  const auto loop = [&](auto axisymmetric) {
+#pragma omp simd
+    for (int i = 0; i < g.cells[0]; ++i) {
+      const QuadGeometry<decltype(axisymmetric)::value> q{{x0[i], x0[i + 1], x1[i + 1], x1[i]},
+                                                          {y0[i], y0[i + 1], y1[i + 1], y1[i]}};
+      volume[i] = q.volume();
+    }
+  };
+  b.axisymmetric ? loop(std::true_type{}) : loop(std::false_type{});
+}
+
+void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, int k, double* volume) {
+  const Grid& g = b.grid;
+  const int rows[4] = {g.node_row(j, k), g.node_row(j + 1, k), g.node_row(j, k + 1), g.node_row(j + 1, k + 1)};
+  const double* p[3][4];
+  for (std::size_t d = 0; d < 3; ++d) {
+    for (int c = 0; c < 4; ++c) {
+      p[d][c] = x[d].row(rows[c]);
+    }
+  }
+#pragma omp simd
+  for (int i = 0; i < g.cells[0]; ++i) {
+    HexGeometry h;
+    for (int c = 0; c < 8; ++c) {
+      static constexpr int row_of[8] = {0, 0, 1, 1, 2, 2, 3, 3}, step[8] = {0, 1, 1, 0, 0, 1, 1, 0};
+      h.x[c] = p[0][row_of[c]][i + step[c]];
+      h.y[c] = p[1][row_of[c]][i + step[c]];
+      h.z[c] = p[2][row_of[c]][i + step[c]];
+    }
+    volume[i] = h.volume();
+  }
+}
+
+template void allocate_block<2>(Block<2>&, const std::array<std::vector<double>, 3>&);
+template void allocate_block<3>(Block<3>&, const std::array<std::vector<double>, 3>&);
+template void compute_node_mass<2>(Block<2>&);
+template void compute_node_mass<3>(Block<3>&);
+template void compute_owner<2>(Block<2>&, int);
+template void compute_owner<3>(Block<3>&, int);
+
+} // namespace ballast

@@ -1,0 +1,118 @@
+// Block: one logically structured mesh with its nodes, its cells and the materials in them.
+//
+// Staggered: nodes hold position, velocity, mass; cells hold, per material, volume fraction, mass,
+// specific energy and only the history that the material's models need. Pressure is stored as a gauge
+// pressure p - p_reference, so that a body at rest under ambient pressure feels exactly no force.
+// Stress is tension-positive, pressure compression-positive. SI.
+#pragma once
+
+#include "core/boundary.hpp"
+#include "core/grid.hpp"
+#include "core/tile_store.hpp"
+#include "materials/material.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ballast {
+
+/// Independent deviator components: 2D xx yy xy (rr zz rz), 3D also yz xz; zz (hoop) follows from the trace.
+template <int Dim> inline constexpr int stress_components = Dim == 2 ? 3 : 5;
+
+/// Field numbers in a material's TileStore.
+namespace field {
+inline constexpr int fraction = 0; ///< volume fraction
+inline constexpr int mass = 1;     ///< kg
+inline constexpr int energy = 2;   ///< J/kg
+inline constexpr int stress = 3;   ///< first deviator component, Pa (materials with strength)
+template <int Dim> inline constexpr int plastic_strain = 3 + stress_components<Dim>;
+} // namespace field
+
+struct MaterialSlot {
+  Material material;
+  bool is_void = false;
+  bool strength = false;
+  GaugeReference reference; ///< the material's initial state
+  TileStore store;
+
+  int pressure_field() const { return store.conserved(); }
+  int modulus_field() const { return store.conserved() + 1; }
+};
+
+enum class MotionPolicy { lagrangian, eulerian };
+
+struct Motion {
+  MotionPolicy policy = MotionPolicy::eulerian;
+  int remap_every = 1;
+
+  bool due(long step) const {
+    return policy == MotionPolicy::eulerian && (step + 1) % remap_every == 0;
+  }
+};
+
+inline constexpr std::int8_t mixed_cell = -1;
+
+template <int Dim> struct Block {
+  std::string name = "mesh";
+  Grid grid;
+  bool axisymmetric = false;
+  Motion motion;
+  BoundarySet boundary;
+  double reference_pressure = 0; ///< Pa; forces use p minus this
+
+  std::array<RowField, Dim> position, velocity, next_position, next_velocity;
+  std::array<RowField, Dim> target; ///< where an eulerian block returns to
+  RowField node_mass;
+  /// Share of a cell's mass that goes to the lower node of each axis, by cell index + ghost.
+  std::array<std::vector<double>, Dim> low_share;
+
+  RowField volume, next_volume;
+  RowField density, pressure, modulus, wave_speed; ///< of the whole cell
+  std::array<RowField, stress_components<Dim>> stress; ///< empty unless a material has strength
+  std::array<RowField, Dim> strain_rate, length, viscosity; ///< along each logical axis
+  std::array<RowField, Dim> swept, mass_flux;               ///< faces, at the cell above them
+  std::vector<std::int8_t> owner; ///< the only material of a cell, or mixed_cell
+
+  std::vector<MaterialSlot> materials; ///< in priority order; void last
+
+  std::int8_t* owner_row(int r) {
+    return owner.data() + static_cast<std::ptrdiff_t>(r) * grid.cell_pitch() + grid.ghost[0];
+  }
+  const std::int8_t* owner_row(int r) const {
+    return owner.data() + static_cast<std::ptrdiff_t>(r) * grid.cell_pitch() + grid.ghost[0];
+  }
+  bool any_strength() const { return !stress[0].empty(); }
+  int void_index() const {
+    return !materials.empty() && materials.back().is_void ? static_cast<int>(materials.size()) - 1 : -1;
+  }
+};
+
+/// Allocates the arrays of a block on the given mesh lines (m) and computes target mesh, volumes and
+/// mass shares. Materials must be set; their stores are made here, empty.
+template <int Dim>
+void allocate_block(Block<Dim>& block, const std::array<std::vector<double>, 3>& lines);
+
+/// Volumes (m3) of one row of cells on node positions `x`.
+void cell_volumes(const Block<2>& b, const std::array<RowField, 2>& x, int j, int k, double* volume);
+void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, int k, double* volume);
+
+/// Node masses from cell masses: M_p = sum of the cells' shares.
+template <int Dim> void compute_node_mass(Block<Dim>& block);
+
+/// owner from the volume fractions; fractions of a cell made to sum to one, the largest absorbing round-off.
+template <int Dim> void compute_owner(Block<Dim>& block, int row);
+
+/// Runs of a row: pure ones (material, begin, end) and mixed cells, left to right.
+struct RowRuns {
+  struct Run {
+    int material, begin, end;
+  };
+  std::vector<Run> pure;
+  std::vector<int> mixed;
+
+  void scan(const std::int8_t* owner, int count);
+};
+
+} // namespace ballast

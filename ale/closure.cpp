@@ -1,0 +1,159 @@
+#include "ale/closure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+
+namespace {
+
+constexpr double largest_part = 0.5; // of its volume that a material may lose to relaxation in one step
+
+MixedCell::Part* void_part(MixedCell& cell) {
+  MixedCell::Part* last = cell.count > 0 ? &cell.part[cell.count - 1] : nullptr;
+  return last && last->is_void && last->volume > 0 ? last : nullptr;
+}
+
+/// Materials beside void: void first, then by compliance; each relaxes towards the void's pressure.
+void share_with_void(const CellMotion& m, MixedCell& cell, MixedCell::Part& hole) {
+  const int solids = cell.count - 1;
+  const double taken = std::max(m.volume_change, -hole.volume);
+  const double rest = m.volume_change - taken;
+  double hole_volume = hole.volume + taken;
+  double compliance = 0;
+  for (int k = 0; k < solids; ++k) {
+    compliance += cell.part[k].volume / cell.part[k].modulus;
+  }
+  for (int k = 0; k < solids; ++k) {
+    MixedCell::Part& p = cell.part[k];
+    p.volume_change = compliance > 0 ? rest * (p.volume / p.modulus) / compliance : 0;
+    p.work = -p.pressure * p.volume_change;
+  }
+  // Materials in tension close up first and leave room, those under pressure then expand into it.
+  for (const bool expanding : {false, true}) {
+    double wanted = 0;
+    for (int k = 0; k < solids; ++k) {
+      const MixedCell::Part& p = cell.part[k];
+      const double d = p.volume / p.modulus * (p.pressure - hole.pressure);
+      wanted += (d > 0) == expanding ? d : 0;
+    }
+    const double share = expanding && wanted > hole_volume ? hole_volume / wanted : 1.0;
+    for (int k = 0; k < solids; ++k) {
+      MixedCell::Part& p = cell.part[k];
+      double d = p.volume / p.modulus * (p.pressure - hole.pressure);
+      if ((d > 0) != expanding || d == 0) {
+        continue;
+      }
+      d = expanding ? d * share : std::max(d, -largest_part * p.volume);
+      p.volume_change += d;
+      hole_volume -= d;
+      p.work -= hole.pressure * d; // the void's pressure is what it pushes against
+    }
+  }
+  hole.volume_change = hole_volume - hole.volume;
+  hole.work = 0;
+}
+
+double limited(const MixedCell& cell, const double* exchange) {
+  double a = 1;
+  for (int k = 0; k < cell.count; ++k) {
+    if (exchange[k] < 0) {
+      a = std::min(a, largest_part * cell.part[k].volume / -exchange[k]);
+    }
+  }
+  return a;
+}
+
+void relax(const CellMotion& m, MixedCell& cell) {
+  double r[max_materials_in_cell], sum = 0, weighted = 0;
+  for (int k = 0; k < cell.count; ++k) {
+    r[k] = cell.part[k].volume / cell.part[k].modulus;
+    sum += r[k];
+    weighted += r[k] * cell.part[k].pressure;
+  }
+  const double mean = weighted / sum;
+  double exchange[max_materials_in_cell];
+  for (int k = 0; k < cell.count; ++k) {
+    exchange[k] = r[k] * (cell.part[k].pressure - mean);
+  }
+  const double a = limited(cell, exchange);
+  for (int k = 0; k < cell.count; ++k) {
+    MixedCell::Part& p = cell.part[k];
+    const double beta = r[k] / sum;
+    p.volume_change = beta * m.volume_change + a * exchange[k];
+    p.work = -(beta * (p.pressure - m.modulus * m.compression) * m.swept_volume + a * mean * exchange[k]);
+  }
+}
+
+/// Tipton 1989: stiffness raised by V/(c dt), one common half-step pressure.
+void tipton(const CellMotion& m, MixedCell& cell) {
+  const double length = std::cbrt(m.volume);
+  double stiff[max_materials_in_cell], sum = 0, weighted = 0;
+  for (int k = 0; k < cell.count; ++k) {
+    const MixedCell::Part& p = cell.part[k];
+    stiff[k] = p.modulus * (1 + length / (p.sound_speed * m.dt));
+    sum += p.volume / stiff[k];
+    weighted += p.volume / stiff[k] * p.pressure;
+  }
+  const double mean = weighted / sum, bulk = m.volume / sum;
+  double exchange[max_materials_in_cell];
+  for (int k = 0; k < cell.count; ++k) {
+    const MixedCell::Part& p = cell.part[k];
+    exchange[k] = p.volume / stiff[k] * (p.pressure - mean) +
+                  p.volume / m.volume * (bulk / stiff[k] - 1) * m.volume_change;
+  }
+  const double a = limited(cell, exchange);
+  const double p_half = m.pressure - m.modulus * m.compression;
+  for (int k = 0; k < cell.count; ++k) {
+    MixedCell::Part& p = cell.part[k];
+    const double strain = p.volume / m.volume;
+    p.volume_change = strain * m.volume_change + a * exchange[k];
+    p.work = -p_half * (strain * m.swept_volume + a * exchange[k]);
+  }
+}
+
+void equal_strain(const CellMotion& m, MixedCell& cell) {
+  const double p_half = m.pressure - m.modulus * m.compression;
+  double mean = 0, share[max_materials_in_cell];
+  for (int k = 0; k < cell.count; ++k) {
+    const MixedCell::Part& p = cell.part[k];
+    share[k] = p.volume / m.volume * (p.pressure - p.modulus * m.compression);
+    mean += share[k];
+  }
+  for (int k = 0; k < cell.count; ++k) {
+    MixedCell::Part& p = cell.part[k];
+    p.volume_change = p.volume / m.volume * m.volume_change;
+    // The force used p_half; what differs from the fractions' mean goes by volume.
+    p.work = -(share[k] + p.volume / m.volume * (p_half - mean)) * m.swept_volume;
+  }
+}
+
+} // namespace
+
+void share_volume_change(Closure closure, const CellMotion& motion, MixedCell& cell) {
+  if (MixedCell::Part* hole = void_part(cell)) {
+    share_with_void(motion, cell, *hole);
+    return;
+  }
+  switch (closure) {
+  case Closure::pressure_relaxation: return relax(motion, cell);
+  case Closure::tipton: return tipton(motion, cell);
+  case Closure::equal_strain: return equal_strain(motion, cell);
+  }
+}
+
+CellPressure mixed_pressure(const MixedCell& cell, double void_pressure) {
+  double compliance = 0, weighted = 0, volume = 0;
+  for (int k = 0; k < cell.count; ++k) {
+    const MixedCell::Part& p = cell.part[k];
+    if (p.is_void) {
+      return {void_pressure, 0};
+    }
+    compliance += p.volume / p.modulus;
+    weighted += p.volume / p.modulus * p.pressure;
+    volume += p.volume;
+  }
+  return {weighted / compliance, volume / compliance};
+}
+
+} // namespace ballast

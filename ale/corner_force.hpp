@@ -1,0 +1,61 @@
+// Corner forces of one row of cells: F_p = -(p - p_ref) S_p + s.S_p + viscosity + hourglass, all at the
+// half step x + dt/2 u with S = dV/dx exact (numerics 1). The same function serves the force pass and the
+// work pass, so the work is done by bitwise the same forces.
+//
+// In RZ: F_r = s_rr A_r + s_rz A_z + s_tt H (S_r = A_r + H), F_z = s_rz A_r + s_zz A_z.
+// Viscosity acts along the normals n_d of the cell's mid surfaces: sigma = -sum q_d n_d n_d^T.
+// Hourglass: Flanagan-Belytschko, viscous, on the modes that a linear velocity field does not excite.
+#pragma once
+
+#include "ale/block.hpp"
+
+namespace ballast {
+
+/// Row pointers (i = 0) of everything a row of corner forces reads.
+template <int Dim> struct ForceRows {
+  static constexpr int lines = 1 << (Dim - 1); ///< node rows around a row of cells
+  const double* x[Dim][lines];
+  const double* u[Dim][lines];
+  const double *pressure, *modulus, *volume, *density, *wave_speed;
+  const double* stress[stress_components<Dim>]; ///< null without strength
+  const double* viscosity[Dim];
+
+  ForceRows(const Block<Dim>& block, int j, int k);
+};
+
+/// Corner forces of a row: f[corner][component] points to `count` doubles.
+template <int Dim> struct CornerRows {
+  double* f[1 << Dim][Dim];
+};
+
+/// What the work pass needs besides: the volume change done by mean velocities, the compression up to
+/// the half step, the work of all corner forces, and the velocity gradient times dt.
+template <int Dim> struct WorkRows {
+  static constexpr int gradient_components = Dim == 2 ? 5 : 9; ///< 2D: xx xy yx yy, hoop; 3D: row-major
+  double *swept_volume, *compression, *work;
+  double* gradient[gradient_components]; ///< null without strength
+};
+
+struct ForceCoefficients {
+  double dt = 0;
+  double hourglass = 0.03; ///< dimensionless (LULESH: 0.01 * 3)
+};
+
+/// Forces of cells [0, count) of a row.
+template <int Dim>
+void corner_forces(const Block<Dim>& block,
+                   const ForceRows<Dim>& in,
+                   const ForceCoefficients& c,
+                   int count,
+                   const CornerRows<Dim>& out);
+
+/// Work done by those forces with the mean velocity (u + u_new)/2.
+template <int Dim>
+void corner_work(const Block<Dim>& block,
+                 const ForceRows<Dim>& in,
+                 const double* const (&next_velocity)[Dim][ForceRows<Dim>::lines],
+                 const ForceCoefficients& c,
+                 int count,
+                 const WorkRows<Dim>& out);
+
+} // namespace ballast

@@ -1,0 +1,191 @@
+#include "ale/corner_force.hpp"
+#include "core/hex_geometry.hpp"
+
+#include <cmath>
+#include <type_traits>
+
+namespace ballast {
+
+template <> ForceRows<2>::ForceRows(const Block<2>& b, int j, int k) {
+  const Grid& g = b.grid;
+  for (std::size_t d = 0; d < 2; ++d) {
+    for (int line = 0; line < 2; ++line) {
+      x[d][line] = b.position[d].row(g.node_row(j + line, k));
+      u[d][line] = b.velocity[d].row(g.node_row(j + line, k));
+    }
+    viscosity[d] = b.viscosity[d].row(g.cell_row(j, k));
+  }
+  const int r = g.cell_row(j, k);
+  pressure = b.pressure.row(r);
+  modulus = b.modulus.row(r);
+  volume = b.volume.row(r);
+  density = b.density.row(r);
+  wave_speed = b.wave_speed.row(r);
+  for (std::size_t s = 0; s < 3; ++s) {
+    stress[s] = b.any_strength() ? b.stress[s].row(r) : nullptr;
+  }
+}
+
+namespace {
+
+template <bool Axisymmetric> struct HalfStepQuad {
+  double sx[4], sy[4], hoop[4], fx[4], fy[4];
+  double volume, compression;
+};
+
+/// All of a cell at the half step. Inlined into both row loops.
+template <bool Axisymmetric, bool Strength>
+[[gnu::always_inline]] inline void
+half_step(const ForceRows<2>& in, const ForceCoefficients& c, int i, HalfStepQuad<Axisymmetric>& h) {
+  const double half = 0.5 * c.dt;
+  const double ux[4] = {in.u[0][0][i], in.u[0][0][i + 1], in.u[0][1][i + 1], in.u[0][1][i]};
+  const double uy[4] = {in.u[1][0][i], in.u[1][0][i + 1], in.u[1][1][i + 1], in.u[1][1][i]};
+  QuadGeometry<Axisymmetric> q{{in.x[0][0][i], in.x[0][0][i + 1], in.x[0][1][i + 1], in.x[0][1][i]},
+                               {in.x[1][0][i], in.x[1][0][i + 1], in.x[1][1][i + 1], in.x[1][1][i]}};
+#pragma GCC unroll 4
+  for (int p = 0; p < 4; ++p) {
+    q.x[p] += half * ux[p];
+    q.y[p] += half * uy[p];
+  }
+  q.gradient(h.sx, h.sy, h.hoop);
+  h.volume = q.volume();
+  h.compression = (h.volume - in.volume[i]) / in.volume[i];
+  const double p_half = in.pressure[i] - in.modulus[i] * h.compression;
+
+  // Normals of the mid surfaces: n0 across the i direction, n1 across j.
+  const double t0x = q.x[1] + q.x[2] - q.x[0] - q.x[3], t0y = q.y[1] + q.y[2] - q.y[0] - q.y[3];
+  const double t1x = q.x[3] + q.x[2] - q.x[0] - q.x[1], t1y = q.y[3] + q.y[2] - q.y[0] - q.y[1];
+  const double q0 = in.viscosity[0][i] / (t1x * t1x + t1y * t1y);
+  const double q1 = in.viscosity[1][i] / (t0x * t0x + t0y * t0y);
+  double xx = -p_half - q0 * t1y * t1y - q1 * t0y * t0y;
+  double yy = -p_half - q0 * t1x * t1x - q1 * t0x * t0x;
+  double xy = q0 * t1x * t1y + q1 * t0x * t0y;
+  double tt = -p_half;
+  if constexpr (Strength) {
+    xx += in.stress[0][i];
+    yy += in.stress[1][i];
+    xy += in.stress[2][i];
+    tt -= in.stress[0][i] + in.stress[1][i];
+  }
+  // Hourglass mode Gamma = (1, -1, 1, -1), orthogonal to linear fields by the planar gradient.
+  const double area = q.area();
+  const double gx = q.x[0] - q.x[1] + q.x[2] - q.x[3], gy = q.y[0] - q.y[1] + q.y[2] - q.y[3];
+  const double per_area = 0.5 / area;
+  double gamma[4], hx = 0, hy = 0;
+#pragma GCC unroll 4
+  for (int p = 0; p < 4; ++p) {
+    const int n = (p + 1) & 3, m = (p + 3) & 3;
+    const double sign = p & 1 ? -1.0 : 1.0;
+    gamma[p] = sign - (gx * (q.y[n] - q.y[m]) + gy * (q.x[m] - q.x[n])) * per_area;
+    hx += gamma[p] * ux[p];
+    hy += gamma[p] * uy[p];
+  }
+  const double drag =
+      c.hourglass * in.density[i] * in.wave_speed[i] * in.volume[i] / std::sqrt(area);
+#pragma GCC unroll 4
+  for (int p = 0; p < 4; ++p) {
+    const double ax = Axisymmetric ? h.sx[p] - h.hoop[p] : h.sx[p];
+    h.fx[p] = xx * ax + xy * h.sy[p] - drag * hx * gamma[p];
+    h.fy[p] = xy * ax + yy * h.sy[p] - drag * hy * gamma[p];
+    if constexpr (Axisymmetric) {
+      h.fx[p] += tt * h.hoop[p];
+    }
+  }
+}
+
+template <bool Axisymmetric, bool Strength>
+void force_row(const ForceRows<2>& in, const ForceCoefficients& c, int count, const CornerRows<2>& out) {
+  double* f[4][2];
+  for (int p = 0; p < 4; ++p) {
+    f[p][0] = out.f[p][0];
+    f[p][1] = out.f[p][1];
+  }
+#pragma omp simd
+  for (int i = 0; i < count; ++i) {
+    HalfStepQuad<Axisymmetric> h;
+    half_step<Axisymmetric, Strength>(in, c, i, h);
+#pragma GCC unroll 4
+    for (int p = 0; p < 4; ++p) {
+      f[p][0][i] = h.fx[p];
+      f[p][1][i] = h.fy[p];
+    }
+  }
+}
+
+template <bool Axisymmetric, bool Strength>
+void work_row(const ForceRows<2>& in,
+              const double* const (&next)[2][2],
+              const ForceCoefficients& c,
+              int count,
+              const WorkRows<2>& out) {
+#pragma omp simd
+  for (int i = 0; i < count; ++i) {
+    HalfStepQuad<Axisymmetric> h;
+    half_step<Axisymmetric, Strength>(in, c, i, h);
+    double swept = 0, work = 0, g[5] = {0, 0, 0, 0, 0};
+#pragma GCC unroll 4
+    for (int p = 0; p < 4; ++p) {
+      const int line = p >> 1, s = p == 1 || p == 2 ? 1 : 0;
+      const double dx = 0.5 * c.dt * (in.u[0][line][i + s] + next[0][line][i + s]);
+      const double dy = 0.5 * c.dt * (in.u[1][line][i + s] + next[1][line][i + s]);
+      swept += h.sx[p] * dx + h.sy[p] * dy;
+      work -= h.fx[p] * dx + h.fy[p] * dy;
+      if constexpr (Strength) {
+        const double ax = Axisymmetric ? h.sx[p] - h.hoop[p] : h.sx[p];
+        g[0] += dx * ax;
+        g[1] += dx * h.sy[p];
+        g[2] += dy * ax;
+        g[3] += dy * h.sy[p];
+        if constexpr (Axisymmetric) {
+          g[4] += dx * h.hoop[p];
+        }
+      }
+    }
+    out.swept_volume[i] = swept;
+    out.compression[i] = h.compression;
+    out.work[i] = work;
+    if constexpr (Strength) {
+      const double per_volume = 1 / h.volume;
+#pragma GCC unroll 5
+      for (int q = 0; q < 5; ++q) {
+        out.gradient[q][i] = g[q] * per_volume;
+      }
+    }
+  }
+}
+
+template <class Function> void dispatch(const Block<2>& b, Function&& f) {
+  using std::false_type, std::true_type;
+  if (b.axisymmetric) {
+    b.any_strength() ? f(true_type{}, true_type{}) : f(true_type{}, false_type{});
+  } else {
+    b.any_strength() ? f(false_type{}, true_type{}) : f(false_type{}, false_type{});
+  }
+}
+
+} // namespace
+
+template <>
+void corner_forces<2>(const Block<2>& block,
+                      const ForceRows<2>& in,
+                      const ForceCoefficients& c,
+                      int count,
+                      const CornerRows<2>& out) {
+  dispatch(block, [&](auto axisymmetric, auto strength) {
+    force_row<axisymmetric.value, strength.value>(in, c, count, out);
+  });
+}
+
+template <>
+void corner_work<2>(const Block<2>& block,
+                    const ForceRows<2>& in,
+                    const double* const (&next)[2][2],
+                    const ForceCoefficients& c,
+                    int count,
+                    const WorkRows<2>& out) {
+  dispatch(block, [&](auto axisymmetric, auto strength) {
+    work_row<axisymmetric.value, strength.value>(in, next, c, count, out);
+  });
+}
+
+} // namespace ballast

@@ -1,0 +1,37 @@
+// The phases of a step, in the order the simulation calls them (ale/simulation.cpp).
+#pragma once
+
+#include "ale/scene.hpp"
+
+namespace ballast {
+
+/// Per-material pressure and modulus from density and energy, then the cell's own pressure, modulus,
+/// density, wave speed and stress. Throws NumericalFailure naming cell, material and quantity when a
+/// sound speed squared is negative or a value is not finite.
+template <int Dim> void update_state(Block<Dim>& block, ThreadPool& pool);
+
+/// Strain rates, lengths and viscosity along the logical axes, and the largest stable step.
+template <int Dim> DtLimit stable_dt(Scene<Dim>& scene);
+
+/// One Lagrangian step of all blocks; retries with half of clock.dt when a cell would invert.
+template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock);
+
+/// Remaps a block from where it is to its target mesh.
+template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& block, long step);
+
+struct Totals {
+  std::vector<double> mass, internal_energy, volume; ///< by material
+  double kinetic_energy = 0;
+  std::array<double, 3> momentum = {0, 0, 0};
+
+  double internal() const {
+    double sum = 0;
+    for (double e : internal_energy) {
+      sum += e;
+    }
+    return sum;
+  }
+};
+template <int Dim> Totals totals(const Block<Dim>& block);
+
+} // namespace ballast

@@ -1,0 +1,115 @@
+// Remap of a block: remap/ moves the conserved quantities, this brings the materials back to a state.
+#include "ale/phases.hpp"
+#include "ale/strength_update.hpp"
+#include "remap/mesh.hpp"
+
+#include <utility>
+
+namespace ballast {
+
+namespace {
+
+template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
+  remap::Mesh<Dim> m{.grid = b.grid,
+                     .axisymmetric = b.axisymmetric,
+                     .position = b.position,
+                     .target = b.target,
+                     .volume = b.volume,
+                     .next_volume = b.next_volume,
+                     .velocity = b.velocity,
+                     .next_velocity = b.next_velocity,
+                     .node_mass = b.node_mass,
+                     .low_share = b.low_share,
+                     .swept = b.swept,
+                     .mass_flux = b.mass_flux,
+                     .materials = {},
+                     .has_void = b.void_index() >= 0,
+                     .owner = b.owner,
+                     .exchange_velocity = [&b](RowField& f, int component) {
+                       exchange_nodes(b.grid, b.boundary, component, f);
+                     }};
+  for (MaterialSlot& slot : b.materials) {
+    m.materials.push_back(&slot.store);
+  }
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const auto a = static_cast<std::size_t>(axis), s = static_cast<std::size_t>(side);
+      m.open[a][s] = b.boundary.open(axis, side);
+      m.void_outside[a][s] = b.boundary.at(axis, side).kind == BoundaryKind::free;
+    }
+  }
+  return m;
+}
+
+template <int Dim> void yield_again(Block<Dim>& b, ThreadPool& pool) {
+  const Grid& g = b.grid;
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        const int r = g.cell_row(j, k);
+        for (MaterialSlot& slot : b.materials) {
+          if (!slot.strength || !slot.store.has_row(r)) {
+            continue;
+          }
+          StressRows<Dim> rows{};
+          for (int a = 0; a < stress_components<Dim>; ++a) {
+            rows.stress[a] = slot.store.row(field::stress + a, r);
+          }
+          rows.plastic_strain = slot.store.row(field::plastic_strain<Dim>, r);
+          rows.energy = slot.store.row(field::energy, r);
+          pull_back_to_yield<Dim>(slot.material, g.cells[0], rows);
+        }
+      }
+    }
+  });
+}
+
+/// Nodes without mass rest: nothing there moves.
+template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
+  const auto& mass = b.node_mass.data();
+  for (auto& u : b.velocity) {
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+      u.data()[i] = mass[i] > 0 ? u.data()[i] : 0.0;
+    }
+  }
+}
+
+} // namespace
+
+template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step) {
+  remap::Mesh<Dim> mesh = view(b);
+  const remap::Settings settings{.normal = scene.numerics.normal, .return_kinetic = scene.numerics.energy_return};
+  const remap::Report report = remap::remap(mesh, settings, *scene.pool, step / b.motion.remap_every);
+  const Grid& g = b.grid;
+  for (int k = 0; k < g.cells[2]; ++k) {
+    for (int j = 0; j < g.cells[1]; ++j) {
+      cell_volumes(b, b.position, j, k, b.volume.row(g.cell_row(j, k)));
+    }
+  }
+  compute_node_mass(b);
+  rest_massless_nodes(b);
+  if (b.any_strength()) {
+    yield_again(b, *scene.pool);
+  }
+  update_state(b, *scene.pool);
+  Ledger& l = scene.ledger;
+  for (std::size_t m = 0; m < report.mass_out.size(); ++m) {
+    l.mass_out[m] += report.mass_out[m];
+  }
+  l.energy_out += report.internal_out + report.kinetic_out;
+  for (std::size_t d = 0; d < 3; ++d) {
+    l.momentum_out[d] += report.momentum_out[d];
+  }
+  l.remap_kinetic_loss += report.kinetic_loss - report.kinetic_returned;
+  l.remap_kinetic_return += report.kinetic_returned;
+  l.energy_floors += report.energy_floors;
+  l.sliver_mass += report.sliver_mass;
+  l.sliver_energy += report.sliver_energy;
+  l.slivers += report.slivers;
+}
+
+template void remap_block<2>(Scene<2>&, Block<2>&, long);
+template void remap_block<3>(Scene<3>&, Block<3>&, long);
+
+} // namespace ballast

@@ -1,0 +1,84 @@
+// Scene: the blocks of a run, the choices of method and what the run keeps account of.
+#pragma once
+
+#include "ale/block.hpp"
+#include "core/threads.hpp"
+#include "remap/normal.hpp"
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ballast {
+
+/// How the volume change of a mixed cell is shared among its materials (ale/closure).
+enum class Closure { pressure_relaxation, tipton, equal_strain };
+
+struct Numerics {
+  double cfl = 0.5;
+  Closure closure = Closure::pressure_relaxation;
+  double quadratic_q = 1.0; ///< on Kuropatenko's (gamma + 1)/4 taken as 2/3, see ale/viscosity
+  double linear_q = 0.5;    ///< on the sound speed
+  double hourglass = 0.03;
+  bool energy_return = true; ///< kinetic energy lost in the remap goes to internal energy
+  remap::NormalMethod normal = remap::NormalMethod::elvira;
+  double dt_initial = 0; ///< s, 0: a tenth of the stable step
+  double dt_growth = 1.1;
+  double dt_max = std::numeric_limits<double>::infinity();
+  double max_volume_change = 0.2; ///< of a cell in one step
+  bool spall = true;
+};
+
+/// What decided the time step.
+enum class DtCause { sound, viscosity, volume_change, growth, maximum, end, retry };
+std::string name_of(DtCause cause);
+
+struct DtLimit {
+  double dt = std::numeric_limits<double>::infinity();
+  int block = 0;
+  std::array<int, 3> cell = {-1, -1, -1};
+  int material = -1;
+  DtCause cause = DtCause::maximum;
+};
+
+struct Clock {
+  double time = 0, end_time = 0, dt = 0;
+  long step = 0;
+  DtLimit limit;
+  std::array<long, 7> census{}; ///< steps by DtCause
+
+  bool done() const { return time >= end_time; }
+  void choose(const DtLimit& stable, const Numerics& numerics);
+  void advance();
+};
+
+/// Energy and mass that left or entered by a named door; all zero in a closed Lagrangian gas run.
+struct Ledger {
+  double boundary_work = 0;       ///< J, done on the block by moving walls and inflows
+  double ambient_work = 0;        ///< J, by the reference pressure on the changing volume
+  double void_work = 0;           ///< J of the reference pressure that void, having no energy, cannot take
+  double remap_kinetic_loss = 0;  ///< J of kinetic energy lost in remaps and not returned
+  double remap_kinetic_return = 0; ///< J lost and returned to internal energy
+  double stress_remap_loss = 0;   ///< J
+  double energy_out = 0;          ///< J, total energy that crossed open boundaries
+  std::vector<double> mass_out;   ///< kg by material
+  std::array<double, 3> momentum_out = {0, 0, 0}; ///< kg m/s through open boundaries
+  double sliver_energy = 0;       ///< J moved or dropped with slivers
+  double sliver_mass = 0;         ///< kg
+  long slivers = 0;
+  long spalled_cells = 0;
+  long energy_floors = 0;         ///< cells whose energy return was cut to keep e from falling
+  long retries = 0;
+};
+
+template <int Dim> struct Scene {
+  std::string title;
+  std::vector<Block<Dim>> blocks;
+  Numerics numerics;
+  Ledger ledger;
+  std::unique_ptr<ThreadPool> pool = std::make_unique<ThreadPool>(1);
+};
+
+} // namespace ballast

@@ -1,0 +1,72 @@
+#include "ale/simulation.hpp"
+
+#include <algorithm>
+
+namespace ballast {
+
+template <int Dim>
+bool run(Scene<Dim>& scene, Clock& clock, const std::vector<Observer<Dim>*>& observers) {
+  bool go_on = true;
+  while (!clock.done() && go_on) {
+    clock.choose(stable_dt(scene), scene.numerics);
+    lagrange_step(scene, clock);
+    for (Block<Dim>& block : scene.blocks) {
+      if (block.motion.due(clock.step)) {
+        remap_block(scene, block, clock.step);
+      }
+    }
+    clock.advance();
+    for (Observer<Dim>* observer : observers) {
+      go_on = observer->record(scene, clock) && go_on;
+    }
+  }
+  return clock.done();
+}
+
+void Clock::choose(const DtLimit& stable, const Numerics& n) {
+  limit = stable;
+  const auto cap = [&](double value, DtCause cause) {
+    if (value < limit.dt) {
+      limit = {value, limit.block, {-1, -1, -1}, -1, cause};
+    }
+  };
+  cap(n.dt_max, DtCause::maximum);
+  if (step == 0) {
+    cap(n.dt_initial > 0 ? n.dt_initial : 0.1 * limit.dt, DtCause::growth);
+  } else {
+    cap(n.dt_growth * dt, DtCause::growth);
+  }
+  const double unclipped = limit.dt;
+  const double left = end_time - time;
+  if (left <= unclipped * (1 + 1e-9)) {
+    cap(left * (1 + 1e-14), DtCause::end);
+    limit.dt = std::min(limit.dt, left);
+  } else if (left < 2 * unclipped) {
+    cap(0.5 * left, DtCause::end); // two equal steps rather than a tiny last one
+  }
+  dt = limit.dt;
+}
+
+void Clock::advance() {
+  time = limit.cause == DtCause::end && end_time - (time + dt) <= 1e-9 * dt ? end_time : time + dt;
+  ++step;
+  ++census[static_cast<std::size_t>(limit.cause)];
+}
+
+template <int Dim> void prepare(Scene<Dim>& scene) {
+  for (Block<Dim>& b : scene.blocks) {
+    scene.ledger.mass_out.resize(std::max(scene.ledger.mass_out.size(), b.materials.size()), 0.0);
+    compute_node_mass(b);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      exchange_nodes(b.grid, b.boundary, static_cast<int>(d), b.velocity[d]);
+    }
+    update_state(b, *scene.pool);
+  }
+}
+
+template bool run<2>(Scene<2>&, Clock&, const std::vector<Observer<2>*>&);
+template bool run<3>(Scene<3>&, Clock&, const std::vector<Observer<3>*>&);
+template void prepare<2>(Scene<2>&);
+template void prepare<3>(Scene<3>&);
+
+} // namespace ballast

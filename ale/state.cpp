@@ -1,0 +1,229 @@
+#include "ale/closure.hpp"
+#include "ale/phases.hpp"
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace ballast {
+
+namespace {
+
+/// Worst value met by a thread; reported once the loop is over.
+struct BadCell {
+  std::array<int, 3> cell = {-1, -1, -1};
+  int material = -1;
+  double density = 0, energy = 0, modulus = 0;
+
+  bool found() const { return material >= 0; }
+};
+
+/// EOS of `count` cells of one material starting at cell `at` of row r.
+void evaluate(MaterialSlot& slot, int r, int at, int count, const double* volume, std::vector<double>& rho) {
+  const double* f = std::as_const(slot.store).row(field::fraction, r) + at;
+  const double* m = std::as_const(slot.store).row(field::mass, r) + at;
+  const double* e = std::as_const(slot.store).row(field::energy, r) + at;
+  const double* v = volume + at;
+#pragma omp simd
+  for (int i = 0; i < count; ++i) {
+    rho[static_cast<std::size_t>(i)] = m[i] / (f[i] * v[i]);
+  }
+  evaluate_row(slot.material.eos, slot.reference, count, rho.data(), e,
+               slot.store.row(slot.pressure_field(), r) + at, slot.store.row(slot.modulus_field(), r) + at);
+}
+
+double stiffness(const MaterialSlot& slot, double modulus) {
+  return slot.strength ? modulus + 4.0 / 3.0 * shear_modulus(slot.material.strength) : modulus;
+}
+
+template <int Dim>
+void pure_run(Block<Dim>& b, int r, const RowRuns::Run& run, std::vector<double>& rho) {
+  MaterialSlot& slot = b.materials[static_cast<std::size_t>(run.material)];
+  double *p = b.pressure.row(r), *k = b.modulus.row(r), *d = b.density.row(r), *c = b.wave_speed.row(r);
+  const double* v = b.volume.row(r);
+  if (slot.is_void) {
+    std::fill(p + run.begin, p + run.end, -b.reference_pressure);
+    for (double* f : {k, d, c}) {
+      std::fill(f + run.begin, f + run.end, 0.0);
+    }
+  } else {
+    evaluate(slot, r, run.begin, run.end - run.begin, v, rho);
+    const double* mp = std::as_const(slot.store).row(slot.pressure_field(), r);
+    const double* mk = std::as_const(slot.store).row(slot.modulus_field(), r);
+    const double* m = std::as_const(slot.store).row(field::mass, r);
+    const double shear = slot.strength ? 4.0 / 3.0 * shear_modulus(slot.material.strength) : 0.0;
+#pragma omp simd
+    for (int i = run.begin; i < run.end; ++i) {
+      p[i] = mp[i];
+      k[i] = mk[i];
+      d[i] = m[i] / v[i];
+      c[i] = std::sqrt((mk[i] + shear) / d[i]);
+    }
+  }
+  for (std::size_t a = 0; b.any_strength() && a < stress_components<Dim>; ++a) {
+    double* s = b.stress[a].row(r);
+    if (slot.strength) {
+      const double* ms = std::as_const(slot.store).row(field::stress + static_cast<int>(a), r);
+      std::copy(ms + run.begin, ms + run.end, s + run.begin);
+    } else {
+      std::fill(s + run.begin, s + run.end, 0.0);
+    }
+  }
+}
+
+template <int Dim> void mixed_state(Block<Dim>& b, int r, int i, std::vector<double>& rho) {
+  MixedCell cell;
+  double mass = 0, fastest = 0;
+  std::array<double, stress_components<Dim>> stress{};
+  for (std::size_t m = 0; m < b.materials.size(); ++m) {
+    MaterialSlot& slot = b.materials[m];
+    const double f = std::as_const(slot.store).row(field::fraction, r)[i];
+    if (f <= 0 || cell.count == max_materials_in_cell) {
+      continue;
+    }
+    MixedCell::Part& p = cell.part[cell.count++];
+    p.is_void = slot.is_void;
+    p.volume = f;
+    if (slot.is_void) {
+      continue;
+    }
+    evaluate(slot, r, i, 1, b.volume.row(r), rho);
+    p.pressure = std::as_const(slot.store).row(slot.pressure_field(), r)[i];
+    p.modulus = std::as_const(slot.store).row(slot.modulus_field(), r)[i];
+    mass += std::as_const(slot.store).row(field::mass, r)[i];
+    fastest = std::max(fastest, stiffness(slot, p.modulus) / rho[0]);
+    for (std::size_t a = 0; slot.strength && a < stress_components<Dim>; ++a) {
+      stress[a] += f * std::as_const(slot.store).row(field::stress + static_cast<int>(a), r)[i];
+    }
+  }
+  const CellPressure cp = mixed_pressure(cell, -b.reference_pressure);
+  b.pressure.row(r)[i] = cp.pressure;
+  b.modulus.row(r)[i] = cp.modulus;
+  b.density.row(r)[i] = mass / b.volume.row(r)[i];
+  b.wave_speed.row(r)[i] = std::sqrt(fastest);
+  for (std::size_t a = 0; b.any_strength() && a < stress_components<Dim>; ++a) {
+    b.stress[a].row(r)[i] = stress[a];
+  }
+}
+
+template <int Dim> BadCell check_row(const Block<Dim>& b, int j, int k) {
+  const int r = b.grid.cell_row(j, k);
+  const double *p = b.pressure.row(r), *c = b.wave_speed.row(r);
+  bool good = true;
+  for (int i = 0; i < b.grid.cells[0]; ++i) {
+    good = good && std::isfinite(p[i]) && std::isfinite(c[i]); // sqrt of a negative modulus is NaN
+  }
+  for (int i = 0; !good && i < b.grid.cells[0]; ++i) {
+    if (std::isfinite(p[i]) && std::isfinite(c[i])) {
+      continue;
+    }
+    for (std::size_t m = 0; m < b.materials.size(); ++m) {
+      const MaterialSlot& slot = b.materials[m];
+      const double f = slot.store.row(field::fraction, r)[i];
+      if (f <= 0 || slot.is_void) {
+        continue;
+      }
+      const double modulus = slot.store.row(slot.modulus_field(), r)[i];
+      if (!(modulus >= 0) || !std::isfinite(slot.store.row(slot.pressure_field(), r)[i])) {
+        return {{i, j, k}, static_cast<int>(m), slot.store.row(field::mass, r)[i] / (f * b.volume.row(r)[i]),
+                slot.store.row(field::energy, r)[i], modulus};
+      }
+    }
+    return {{i, j, k}, 0, b.density.row(r)[i], 0, b.modulus.row(r)[i]};
+  }
+  return {};
+}
+
+} // namespace
+
+template <int Dim> void update_state(Block<Dim>& b, ThreadPool& pool) {
+  const Grid& g = b.grid;
+  std::vector<BadCell> bad(static_cast<std::size_t>(g.slabs()));
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    std::vector<double> rho(static_cast<std::size_t>(g.cells[0]));
+    RowRuns runs;
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        const int r = g.cell_row(j, k);
+        compute_owner(b, r);
+        runs.scan(b.owner_row(r), g.cells[0]);
+        for (const RowRuns::Run& run : runs.pure) {
+          pure_run(b, r, run, rho);
+        }
+        for (const int i : runs.mixed) {
+          mixed_state(b, r, i, rho);
+        }
+        if (const BadCell found = check_row(b, j, k); found.found()) {
+          bad[static_cast<std::size_t>(s)] = found;
+        }
+      }
+    }
+  });
+  for (const BadCell& c : bad) {
+    if (c.found()) {
+      throw NumericalFailure(fmt::format(
+          "block {}, cell ({}, {}, {}), material {}: bulk modulus {:g} Pa at density {:g} kg/m3, "
+          "specific energy {:g} J/kg",
+          b.name, c.cell[0], c.cell[1], c.cell[2], b.materials[static_cast<std::size_t>(c.material)].material.name,
+          c.modulus, c.density, c.energy));
+    }
+  }
+}
+
+template <int Dim> Totals totals(const Block<Dim>& b) {
+  const Grid& g = b.grid;
+  Totals t;
+  for (const MaterialSlot& slot : b.materials) {
+    double mass = 0, energy = 0, volume = 0;
+    for (int k = 0; k < g.cells[2]; ++k) {
+      for (int j = 0; j < g.cells[1]; ++j) {
+        const int r = g.cell_row(j, k);
+        if (!slot.store.has_row(r)) {
+          continue;
+        }
+        const double* f = slot.store.row(field::fraction, r);
+        const double* v = b.volume.row(r);
+        const double* m = slot.is_void ? nullptr : slot.store.row(field::mass, r);
+        const double* e = slot.is_void ? nullptr : slot.store.row(field::energy, r);
+        double row_mass = 0, row_energy = 0;
+        for (int i = 0; i < g.cells[0]; ++i) {
+          volume += f[i] * v[i];
+          row_mass += m ? m[i] : 0;
+          row_energy += m ? m[i] * e[i] : 0;
+        }
+        mass += row_mass;
+        energy += row_energy;
+      }
+    }
+    t.mass.push_back(mass);
+    t.internal_energy.push_back(energy);
+    t.volume.push_back(volume);
+  }
+  for (int k = 0; k < (Dim == 3 ? g.cells[2] + 1 : 1); ++k) {
+    for (int j = 0; j <= g.cells[1]; ++j) {
+      const int r = g.node_row(j, k);
+      const double* m = b.node_mass.row(r);
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const double* u = b.velocity[d].row(r);
+        double momentum = 0, kinetic = 0;
+        for (int i = 0; i <= g.cells[0]; ++i) {
+          momentum += m[i] * u[i];
+          kinetic += 0.5 * m[i] * u[i] * u[i];
+        }
+        t.momentum[d] += momentum;
+        t.kinetic_energy += kinetic;
+      }
+    }
+  }
+  return t;
+}
+
+template void update_state<2>(Block<2>&, ThreadPool&);
+template void update_state<3>(Block<3>&, ThreadPool&);
+template Totals totals<2>(const Block<2>&);
+template Totals totals<3>(const Block<3>&);
+
+} // namespace ballast

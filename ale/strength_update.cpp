@@ -1,0 +1,169 @@
+#include "ale/strength_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+
+namespace {
+
+constexpr int chunk = 64; // cells whose trial stress is kept at hand
+
+/// von Mises equivalent stress sqrt(3/2 s:s) of deviator components.
+double equivalent(const double* s, std::integral_constant<int, 2>) {
+  const double zz = -s[0] - s[1];
+  return std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + zz * zz + 2 * s[2] * s[2]));
+}
+double equivalent(const double* s, std::integral_constant<int, 3>) {
+  const double zz = -s[0] - s[1];
+  return std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + zz * zz + 2 * (s[2] * s[2] + s[3] * s[3] + s[4] * s[4])));
+}
+
+/// Rotated stress plus elastic increment, for cells [0, count) from `at` on.
+void trial(double shear, int at, int count, const StressRows<2>& rows, double (*out)[chunk]) {
+  const double *gxx = rows.gradient[0] + at, *gxy = rows.gradient[1] + at, *gyx = rows.gradient[2] + at,
+               *gyy = rows.gradient[3] + at, *gtt = rows.gradient[4] + at;
+  const double *sxx = rows.stress[0] + at, *syy = rows.stress[1] + at, *sxy = rows.stress[2] + at;
+#pragma omp simd
+  for (int i = 0; i < count; ++i) {
+    const double w = 0.5 * (gxy[i] - gyx[i]), d = 1 / (1 + 0.25 * w * w);
+    const double c = (1 - 0.25 * w * w) * d, s = w * d;
+    const double xx = c * c * sxx[i] + 2 * c * s * sxy[i] + s * s * syy[i];
+    const double yy = s * s * sxx[i] - 2 * c * s * sxy[i] + c * c * syy[i];
+    const double xy = (c * c - s * s) * sxy[i] + c * s * (syy[i] - sxx[i]);
+    const double mean = (gxx[i] + gyy[i] + gtt[i]) / 3;
+    out[0][i] = xx + 2 * shear * (gxx[i] - mean);
+    out[1][i] = yy + 2 * shear * (gyy[i] - mean);
+    out[2][i] = xy + shear * (gxy[i] + gyx[i]);
+  }
+}
+
+void trial(double shear, int at, int count, const StressRows<3>& rows, double (*out)[chunk]) {
+#pragma omp simd
+  for (int i = 0; i < count; ++i) {
+    double g[9];
+#pragma GCC unroll 9
+    for (int q = 0; q < 9; ++q) {
+      g[q] = rows.gradient[q][at + i];
+    }
+    const double s[9] = {rows.stress[0][at + i], rows.stress[2][at + i], rows.stress[4][at + i],
+                         rows.stress[2][at + i], rows.stress[1][at + i], rows.stress[3][at + i],
+                         rows.stress[4][at + i], rows.stress[3][at + i],
+                         -rows.stress[0][at + i] - rows.stress[1][at + i]};
+    // Q = I + 2/(1 + q.q) ([q] + [q]^2), q half the axial vector of the spin times dt.
+    const double qx = 0.25 * (g[7] - g[5]), qy = 0.25 * (g[2] - g[6]), qz = 0.25 * (g[3] - g[1]);
+    const double qq = qx * qx + qy * qy + qz * qz, f = 2 / (1 + qq);
+    const double R[9] = {1 + f * (qx * qx - qq), f * (qx * qy - qz), f * (qx * qz + qy),
+                         f * (qx * qy + qz), 1 + f * (qy * qy - qq), f * (qy * qz - qx),
+                         f * (qx * qz - qy), f * (qy * qz + qx), 1 + f * (qz * qz - qq)};
+    double rs[9], t[9];
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; ++a) {
+#pragma GCC unroll 3
+      for (int b = 0; b < 3; ++b) {
+        rs[3 * a + b] = R[3 * a] * s[b] + R[3 * a + 1] * s[3 + b] + R[3 * a + 2] * s[6 + b];
+      }
+    }
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; ++a) {
+#pragma GCC unroll 3
+      for (int b = 0; b < 3; ++b) {
+        t[3 * a + b] = rs[3 * a] * R[3 * b] + rs[3 * a + 1] * R[3 * b + 1] + rs[3 * a + 2] * R[3 * b + 2];
+      }
+    }
+    const double mean = (g[0] + g[4] + g[8]) / 3;
+    out[0][i] = t[0] + 2 * shear * (g[0] - mean);
+    out[1][i] = t[4] + 2 * shear * (g[4] - mean);
+    out[2][i] = t[1] + shear * (g[1] + g[3]);
+    out[3][i] = t[5] + shear * (g[5] + g[7]);
+    out[4][i] = t[2] + shear * (g[2] + g[6]);
+  }
+}
+
+template <int Dim, class Model>
+int return_to_yield(const Model& model,
+                    const Material& material,
+                    double dt,
+                    int at,
+                    int count,
+                    const StressRows<Dim>& rows,
+                    const double (*t)[chunk]) {
+  constexpr int n = stress_components<Dim>;
+  double q[chunk];
+  for (int i = 0; i < count; ++i) {
+    double s[n];
+    for (int a = 0; a < n; ++a) {
+      s[a] = t[a][i];
+    }
+    q[i] = equivalent(s, std::integral_constant<int, Dim>{});
+  }
+  int failed = 0;
+  for (int i = 0; i < count; ++i) {
+    double scale = 1;
+    if (q[i] > 0) {
+      const FlowState state{rows.plastic_strain[at + i], rows.energy[at + i] - material.specific_energy, dt};
+      const PlasticIncrement d = plastic_increment(model, state, q[i]);
+      scale = 1 - 3 * model.shear_modulus * d.value / q[i];
+      rows.plastic_strain[at + i] += d.value;
+      failed += d.converged ? 0 : 1;
+    }
+    for (int a = 0; a < n; ++a) {
+      rows.stress[a][at + i] = scale * t[a][i];
+    }
+  }
+  return failed;
+}
+
+} // namespace
+
+template <int Dim>
+int update_stress(const Material& material, double dt, int count, const StressRows<Dim>& rows) {
+  return std::visit(
+      [&](const auto& model) {
+        int failed = 0;
+        if constexpr (!std::is_same_v<std::decay_t<decltype(model)>, NoStrength>) {
+          double t[stress_components<Dim>][chunk];
+          for (int at = 0; at < count; at += chunk) {
+            const int part = std::min(chunk, count - at);
+            trial(model.shear_modulus, at, part, rows, t);
+            failed += return_to_yield<Dim>(model, material, dt, at, part, rows, t);
+          }
+        }
+        return failed;
+      },
+      material.strength);
+}
+
+template <int Dim> void pull_back_to_yield(const Material& material, int count, const StressRows<Dim>& rows) {
+  std::visit(
+      [&](const auto& model) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(model)>, NoStrength>) {
+          constexpr int n = stress_components<Dim>;
+          for (int i = 0; i < count; ++i) {
+            double s[n];
+            for (int a = 0; a < n; ++a) {
+              s[a] = rows.stress[a][i];
+            }
+            const double q = equivalent(s, std::integral_constant<int, Dim>{});
+            if (q == 0) {
+              continue;
+            }
+            const FlowState state{rows.plastic_strain[i], rows.energy[i] - material.specific_energy, 0};
+            const double limit = flow_stress(model, state, 0);
+            if (q > limit) {
+              for (int a = 0; a < n; ++a) {
+                rows.stress[a][i] *= limit / q;
+              }
+            }
+          }
+        }
+      },
+      material.strength);
+}
+
+template int update_stress<2>(const Material&, double, int, const StressRows<2>&);
+template int update_stress<3>(const Material&, double, int, const StressRows<3>&);
+template void pull_back_to_yield<2>(const Material&, int, const StressRows<2>&);
+template void pull_back_to_yield<3>(const Material&, int, const StressRows<3>&);
+
+} // namespace ballast

@@ -1,0 +1,24 @@
+// Hypoelastic stress update of one row: Jaumann rate by the Hughes-Winget rotation, elastic trial,
+// radial return (materials/strength). Deviator components as in stress_components<Dim>, tension-positive.
+#pragma once
+
+#include "ale/block.hpp"
+
+namespace ballast {
+
+/// Pointers to the first of `count` cells. gradient: velocity gradient times dt (ale/corner_force).
+template <int Dim> struct StressRows {
+  double* stress[stress_components<Dim>];
+  double* plastic_strain;
+  const double* energy;
+  const double* gradient[Dim == 2 ? 5 : 9];
+};
+
+/// Returns the number of cells whose return did not converge.
+template <int Dim>
+[[nodiscard]] int update_stress(const Material& material, double dt, int count, const StressRows<Dim>& rows);
+
+/// Scales deviators back to the flow stress (after a remap).
+template <int Dim> void pull_back_to_yield(const Material& material, int count, const StressRows<Dim>& rows);
+
+} // namespace ballast

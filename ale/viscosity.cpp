@@ -1,0 +1,230 @@
+// Artificial viscosity and the stable time step.
+//
+// Along each logical axis d the velocity jump across a cell is du = e L with the strain rate
+// e = n.grad(u).n along the mid surface normal n and L = V / |mid surface|. In compression
+//   q = rho |du'| (a |du'| + sqrt((a du')^2 + (b c)^2)),  du' = (1 - psi) du      (Kuropatenko)
+// with a = quadratic_q * 2/3 (the (gamma+1)/4 of a 5/3 gas; s/2 of a solid is 0.7) and b = linear_q. The
+// limiter psi = max(0, min((r_l + r_r)/2, 2 r_l, 2 r_r, 1)) compares e with the two neighbours along the
+// axis and leaves smooth (linear) compression alone.
+// dt = cfl L / (Q + sqrt(Q^2 + c^2)) with Q = q / (rho |du|).
+#include "ale/phases.hpp"
+#include "core/hex_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+
+std::string name_of(DtCause cause) {
+  static const char* const names[] = {
+      "sound", "viscosity", "volume change", "growth", "maximum", "end", "retry"};
+  return names[static_cast<int>(cause)];
+}
+
+namespace {
+
+template <bool Axisymmetric> void rates_2d(Block<2>& b, int j) {
+  const Grid& g = b.grid;
+  const double *x0 = b.position[0].row(g.node_row(j, 0)), *x1 = b.position[0].row(g.node_row(j + 1, 0));
+  const double *y0 = b.position[1].row(g.node_row(j, 0)), *y1 = b.position[1].row(g.node_row(j + 1, 0));
+  const double *u0 = b.velocity[0].row(g.node_row(j, 0)), *u1 = b.velocity[0].row(g.node_row(j + 1, 0));
+  const double *v0 = b.velocity[1].row(g.node_row(j, 0)), *v1 = b.velocity[1].row(g.node_row(j + 1, 0));
+  const int r = g.cell_row(j, 0);
+  double *e0 = b.strain_rate[0].row(r), *e1 = b.strain_rate[1].row(r);
+  double *l0 = b.length[0].row(r), *l1 = b.length[1].row(r);
+  const double* volume = b.volume.row(r);
+#pragma omp simd
+  for (int i = 0; i < g.cells[0]; ++i) {
+    const QuadGeometry<Axisymmetric> q{{x0[i], x0[i + 1], x1[i + 1], x1[i]},
+                                       {y0[i], y0[i + 1], y1[i + 1], y1[i]}};
+    const double u[4] = {u0[i], u0[i + 1], u1[i + 1], u1[i]}, v[4] = {v0[i], v0[i + 1], v1[i + 1], v1[i]};
+    double sx[4], sy[4], hoop[4], xx = 0, xy = 0, yx = 0, yy = 0;
+    q.gradient(sx, sy, hoop);
+#pragma GCC unroll 4
+    for (int p = 0; p < 4; ++p) {
+      const double ax = Axisymmetric ? sx[p] - hoop[p] : sx[p];
+      xx += u[p] * ax;
+      xy += u[p] * sy[p];
+      yx += v[p] * ax;
+      yy += v[p] * sy[p];
+    }
+    const double t0x = 0.5 * (q.x[1] + q.x[2] - q.x[0] - q.x[3]), t0y = 0.5 * (q.y[1] + q.y[2] - q.y[0] - q.y[3]);
+    const double t1x = 0.5 * (q.x[3] + q.x[2] - q.x[0] - q.x[1]), t1y = 0.5 * (q.y[3] + q.y[2] - q.y[0] - q.y[1]);
+    const double a0 = t1x * t1x + t1y * t1y, a1 = t0x * t0x + t0y * t0y;
+    e0[i] = (t1y * t1y * xx - t1x * t1y * (xy + yx) + t1x * t1x * yy) / (a0 * volume[i]);
+    e1[i] = (t0y * t0y * xx - t0x * t0y * (xy + yx) + t0x * t0x * yy) / (a1 * volume[i]);
+    const double area = q.area();
+    l0[i] = area / std::sqrt(a0);
+    l1[i] = area / std::sqrt(a1);
+  }
+}
+
+void rates(Block<2>& b, int j, int) { b.axisymmetric ? rates_2d<true>(b, j) : rates_2d<false>(b, j); }
+
+struct V3 {
+  double x, y, z;
+};
+
+void rates(Block<3>& b, int j, int k) {
+  const Grid& g = b.grid;
+  static constexpr int line_of[8] = {0, 0, 1, 1, 2, 2, 3, 3}, step_of[8] = {0, 1, 1, 0, 0, 1, 1, 0};
+  const double *x[3][4], *u[3][4];
+  for (std::size_t d = 0; d < 3; ++d) {
+    for (int l = 0; l < 4; ++l) {
+      const int nodes = g.node_row(j + (l & 1), k + (l >> 1));
+      x[d][l] = b.position[d].row(nodes);
+      u[d][l] = b.velocity[d].row(nodes);
+    }
+  }
+  const int r = g.cell_row(j, k);
+  double *e0 = b.strain_rate[0].row(r), *e1 = b.strain_rate[1].row(r), *e2 = b.strain_rate[2].row(r);
+  double *l0 = b.length[0].row(r), *l1 = b.length[1].row(r), *l2 = b.length[2].row(r);
+  const double* volume = b.volume.row(r);
+#pragma omp simd
+  for (int i = 0; i < g.cells[0]; ++i) {
+    HexGeometry h;
+    double w[3][8];
+#pragma GCC unroll 8
+    for (int p = 0; p < 8; ++p) {
+      const int l = line_of[p], s = i + step_of[p];
+      h.x[p] = x[0][l][s];
+      h.y[p] = x[1][l][s];
+      h.z[p] = x[2][l][s];
+      w[0][p] = u[0][l][s];
+      w[1][p] = u[1][l][s];
+      w[2][p] = u[2][l][s];
+    }
+    double sx[8], sy[8], sz[8], xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
+    h.gradient(sx, sy, sz);
+#pragma GCC unroll 8
+    for (int p = 0; p < 8; ++p) {
+      xx += w[0][p] * sx[p];
+      yy += w[1][p] * sy[p];
+      zz += w[2][p] * sz[p];
+      xy += w[0][p] * sy[p] + w[1][p] * sx[p];
+      yz += w[1][p] * sz[p] + w[2][p] * sy[p];
+      xz += w[0][p] * sz[p] + w[2][p] * sx[p];
+    }
+    const auto mid = [&](const double(&c)[8], int axis) {
+      return axis == 0   ? c[1] + c[2] + c[5] + c[6] - c[0] - c[3] - c[4] - c[7]
+             : axis == 1 ? c[3] + c[2] + c[7] + c[6] - c[0] - c[1] - c[4] - c[5]
+                         : c[4] + c[5] + c[6] + c[7] - c[0] - c[1] - c[2] - c[3];
+    };
+    const V3 t0{mid(h.x, 0), mid(h.y, 0), mid(h.z, 0)}, t1{mid(h.x, 1), mid(h.y, 1), mid(h.z, 1)},
+        t2{mid(h.x, 2), mid(h.y, 2), mid(h.z, 2)};
+    const auto along = [&](const V3& a, const V3& c, double& e, double& l) {
+      const double nx = a.y * c.z - a.z * c.y, ny = a.z * c.x - a.x * c.z, nz = a.x * c.y - a.y * c.x;
+      const double n2 = nx * nx + ny * ny + nz * nz;
+      e = (nx * nx * xx + ny * ny * yy + nz * nz * zz + nx * ny * xy + ny * nz * yz + nx * nz * xz) /
+          (n2 * volume[i]);
+      l = 16 * volume[i] / std::sqrt(n2);
+    };
+    along(t1, t2, e0[i], l0[i]);
+    along(t2, t0, e1[i], l1[i]);
+    along(t0, t1, e2[i], l2[i]);
+  }
+}
+
+double limiter(double e, double below, double above) {
+  const double safe = std::abs(e) > 1e-300 ? e : 1e-300;
+  const double low = below / safe, high = above / safe;
+  return std::max(0.0, std::min({0.5 * (low + high), 2 * low, 2 * high, 1.0}));
+}
+
+struct ViscosityCoefficients {
+  double quadratic, linear;
+};
+
+/// q of one axis of one row, and the step it allows, folded into `dt`.
+void viscosity_row(int count,
+                   const ViscosityCoefficients& c,
+                   const double* below,
+                   const double* here,
+                   const double* above,
+                   const double* length,
+                   const double* density,
+                   const double* wave_speed,
+                   double* viscosity,
+                   double* dt) {
+#pragma omp simd
+  for (int i = 0; i < count; ++i) {
+    const double e = here[i];
+    const double sound = wave_speed[i];
+    const double jump = e < 0 ? -e * length[i] * (1 - limiter(e, below[i], above[i])) : 0.0;
+    const double a = c.quadratic * jump, lin = c.linear * sound;
+    const double speed = a + std::sqrt(a * a + lin * lin);
+    const double active = jump > 0 ? speed : 0.0;
+    viscosity[i] = density[i] * jump * active;
+    dt[i] = std::min(dt[i], length[i] / (active + std::sqrt(active * active + sound * sound) + 1e-300));
+  }
+}
+
+} // namespace
+
+template <int Dim> DtLimit stable_dt(Scene<Dim>& scene) {
+  DtLimit best;
+  const Numerics& n = scene.numerics;
+  const ViscosityCoefficients c{n.quadratic_q * (2.0 / 3.0), n.linear_q};
+  for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
+    Block<Dim>& b = scene.blocks[ib];
+    const Grid& g = b.grid;
+    parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
+      for (int s = begin; s < end; ++s) {
+        for (int q = 0; q < g.rows_per_slab(); ++q) {
+          const auto [j, k] = g.in_slab(s, q);
+          rates(b, j, k);
+        }
+      }
+    });
+    for (auto& f : b.strain_rate) {
+      exchange_cells(g, f);
+    }
+    std::vector<DtLimit> found(static_cast<std::size_t>(g.slabs()));
+    parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
+      std::vector<double> dt(static_cast<std::size_t>(g.cells[0]));
+      for (int s = begin; s < end; ++s) {
+        for (int q = 0; q < g.rows_per_slab(); ++q) {
+          const auto [j, k] = g.in_slab(s, q);
+          const int r = g.cell_row(j, k);
+          std::fill(dt.begin(), dt.end(), std::numeric_limits<double>::infinity());
+          for (std::size_t d = 0; d < Dim; ++d) {
+            const RowField& e = b.strain_rate[d];
+            const int stride = g.cell_row_stride(static_cast<int>(d)), step = d == 0 ? 1 : 0;
+            viscosity_row(g.cells[0], c, e.row(r - stride) - step, e.row(r), e.row(r + stride) + step,
+                          b.length[d].row(r), b.density.row(r), b.wave_speed.row(r),
+                          b.viscosity[d].row(r), dt.data());
+          }
+          const auto low = std::min_element(dt.begin(), dt.end());
+          DtLimit& limit = found[static_cast<std::size_t>(s)];
+          const int i = static_cast<int>(low - dt.begin());
+          if (n.cfl * *low < limit.dt) {
+            const bool viscous = b.viscosity[0].row(r)[i] > 0 || b.viscosity[1].row(r)[i] > 0;
+            limit = {n.cfl * *low, static_cast<int>(ib), {i, j, k}, b.owner_row(r)[i],
+                     viscous ? DtCause::viscosity : DtCause::sound};
+          }
+          for (int cell = 0; cell < g.cells[0]; ++cell) {
+            double rate = 0;
+            for (std::size_t d = 0; d < Dim; ++d) {
+              rate = std::max(rate, std::abs(b.strain_rate[d].row(r)[cell]));
+            }
+            if (n.max_volume_change < limit.dt * rate) {
+              limit = {n.max_volume_change / rate, static_cast<int>(ib), {cell, j, k},
+                       b.owner_row(r)[cell], DtCause::volume_change};
+            }
+          }
+        }
+      }
+    });
+    for (const DtLimit& limit : found) {
+      if (limit.dt < best.dt) {
+        best = limit;
+      }
+    }
+  }
+  return best;
+}
+
+template DtLimit stable_dt<2>(Scene<2>&);
+template DtLimit stable_dt<3>(Scene<3>&);
+
+} // namespace ballast

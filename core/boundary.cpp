@@ -1,0 +1,72 @@
+#include "core/boundary.hpp"
+
+namespace ballast {
+
+void exchange_cells(const Grid& g, RowField& f) {
+  mirror_cells(g, {1, 1, 1}, [&](int j, int k) { return f.row(g.cell_row(j, k)); });
+}
+
+namespace {
+
+/// value of a ghost node at distance q outside: odd or even mirror, or zero gradient.
+struct NodeGhost {
+  bool fixed;     // the side fixes the normal velocity: mirror
+  double sign;    // of the mirrored component
+  int source(int i, int n) const { return fixed ? mirrored_node(i, n) : (i < 0 ? 0 : n); }
+};
+
+NodeGhost ghost_rule(const BoundarySet& b, int axis, int side, int component) {
+  const bool fixed = b.fixes_normal_velocity(axis, side);
+  return {fixed, fixed && axis == component ? -1.0 : 1.0};
+}
+
+} // namespace
+
+void exchange_nodes(const Grid& g, const BoundarySet& boundary, int component, RowField& f) {
+  const auto side_value = [&](int axis, int side) {
+    return axis == component ? boundary.at(axis, side).velocity : 0.0;
+  };
+  const int top = g.dim == 3 ? g.cells[2] : 0;
+  for (int k = 0; k <= top; ++k) {
+    for (int j = 0; j <= g.cells[1]; ++j) {
+      double* a = f.row(g.node_row(j, k));
+      for (int side = 0; side < 2; ++side) {
+        const NodeGhost rule = ghost_rule(boundary, 0, side, component);
+        const double shift = rule.sign < 0 ? 2 * side_value(0, side) : 0.0;
+        for (int q = 1; q <= g.ghost[0]; ++q) {
+          const int i = side == 0 ? -q : g.cells[0] + q;
+          a[i] = shift + rule.sign * a[rule.source(i, g.cells[0])];
+        }
+      }
+    }
+  }
+  const auto copy = [&](int j, int k, int js, int ks, double sign, double shift) {
+    double* to = f.row(g.node_row(j, k));
+    const double* from = f.row(g.node_row(js, ks));
+    for (int i = -g.ghost[0]; i <= g.cells[0] + g.ghost[0]; ++i) {
+      to[i] = shift + sign * from[i];
+    }
+  };
+  for (int axis = 1; axis < g.dim; ++axis) {
+    const int n = g.cells[static_cast<std::size_t>(axis)];
+    for (int side = 0; side < 2; ++side) {
+      const NodeGhost rule = ghost_rule(boundary, axis, side, component);
+      const double shift = rule.sign < 0 ? 2 * side_value(axis, side) : 0.0;
+      for (int q = 1; q <= g.ghost[static_cast<std::size_t>(axis)]; ++q) {
+        const int to = side == 0 ? -q : n + q;
+        const int from = rule.source(to, n);
+        if (axis == 1) {
+          for (int k = 0; k <= top; ++k) {
+            copy(to, k, from, k, rule.sign, shift);
+          }
+        } else {
+          for (int j = -g.ghost[1]; j <= g.cells[1] + g.ghost[1]; ++j) {
+            copy(j, to, j, from, rule.sign, shift);
+          }
+        }
+      }
+    }
+  }
+}
+
+} // namespace ballast

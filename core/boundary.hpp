@@ -1,0 +1,97 @@
+// Boundaries of a block, one kind an axis and side, and the exchange that fills ghosts.
+#pragma once
+
+#include "core/grid.hpp"
+
+#include <array>
+#include <span>
+
+namespace ballast {
+
+/// symmetry: no normal velocity, mirrored ghosts (also the axis r = 0). wall: rigid, frictionless, may
+/// move along its normal. free: no traction beyond the reference pressure. outflow: as if the block went
+/// on unchanged. inflow: prescribed velocity and states (the block's initial edge cells).
+enum class BoundaryKind { symmetry, wall, free, outflow, inflow };
+
+struct BoundarySide {
+  BoundaryKind kind = BoundaryKind::symmetry;
+  double velocity = 0; ///< along the axis: of a moving wall or an inflow, m/s
+};
+
+struct BoundarySet {
+  std::array<std::array<BoundarySide, 2>, 3> side; ///< [axis][low, high]
+
+  bool fixes_normal_velocity(int axis, int s) const {
+    const BoundaryKind k = at(axis, s).kind;
+    return k == BoundaryKind::symmetry || k == BoundaryKind::wall || k == BoundaryKind::inflow;
+  }
+  const BoundarySide& at(int axis, int s) const {
+    return side[static_cast<std::size_t>(axis)][static_cast<std::size_t>(s)];
+  }
+  /// Material may cross (an eulerian block's face there is swept or fed).
+  bool open(int axis, int s) const {
+    const BoundaryKind k = at(axis, s).kind;
+    return k == BoundaryKind::free || k == BoundaryKind::outflow || k == BoundaryKind::inflow;
+  }
+};
+
+/// Cell index that ghost cell `i` (outside [0, n)) mirrors; clamped for blocks thinner than the ghosts.
+constexpr int mirrored_cell(int i, int n) {
+  const int m = i < 0 ? -1 - i : 2 * n - 1 - i;
+  return m < 0 ? 0 : m >= n ? n - 1 : m;
+}
+/// Node index (0..n) that ghost node `i` mirrors.
+constexpr int mirrored_node(int i, int n) {
+  const int m = i < 0 ? -i : 2 * n - i;
+  return m < 0 ? 0 : m > n ? n : m;
+}
+
+/// Fills the ghosts of cell rows: `row(j, k)` must return the pointer to i = 0, or null to skip.
+/// sign[axis] is -1 for a component that a mirror at that axis turns round.
+template <class Row>
+void mirror_cells(const Grid& g, const std::array<double, 3>& sign, Row&& row) {
+  for (int k = 0; k < g.cells[2]; ++k) {
+    for (int j = 0; j < g.cells[1]; ++j) {
+      if (double* a = row(j, k)) {
+        for (int q = 1; q <= g.ghost[0]; ++q) {
+          a[-q] = sign[0] * a[mirrored_cell(-q, g.cells[0])];
+          a[g.cells[0] - 1 + q] = sign[0] * a[mirrored_cell(g.cells[0] - 1 + q, g.cells[0])];
+        }
+      }
+    }
+  }
+  const auto copy = [&](int j, int k, int js, int ks, double s) {
+    double* to = row(j, k);
+    const double* from = row(js, ks);
+    if (to && from) {
+      for (int i = -g.ghost[0]; i < g.cells[0] + g.ghost[0]; ++i) {
+        to[i] = s * from[i];
+      }
+    } else if (to) {
+      for (int i = -g.ghost[0]; i < g.cells[0] + g.ghost[0]; ++i) {
+        to[i] = 0;
+      }
+    }
+  };
+  for (int k = 0; k < g.cells[2]; ++k) {
+    for (int q = 1; q <= g.ghost[1]; ++q) {
+      copy(-q, k, mirrored_cell(-q, g.cells[1]), k, sign[1]);
+      copy(g.cells[1] - 1 + q, k, mirrored_cell(g.cells[1] - 1 + q, g.cells[1]), k, sign[1]);
+    }
+  }
+  for (int q = 1; q <= g.ghost[2]; ++q) {
+    for (int j = -g.ghost[1]; j < g.cells[1] + g.ghost[1]; ++j) {
+      copy(j, -q, j, mirrored_cell(-q, g.cells[2]), sign[2]);
+      copy(j, g.cells[2] - 1 + q, j, mirrored_cell(g.cells[2] - 1 + q, g.cells[2]), sign[2]);
+    }
+  }
+}
+
+/// Fills the ghosts of a node field; sign as in mirror_cells for sides that fix the normal velocity,
+/// zero gradient on the others.
+void exchange_nodes(const Grid& g, const BoundarySet& boundary, int component, RowField& f);
+
+/// Fills the ghosts of a cell field that a mirror leaves unchanged.
+void exchange_cells(const Grid& g, RowField& f);
+
+} // namespace ballast

@@ -1,0 +1,63 @@
+#include "core/threads.hpp"
+
+namespace ballast {
+
+namespace {
+constexpr int spins_before_sleep = 20000; // a step's phases follow within microseconds
+
+void await_change(const std::atomic<int>& value, int old) {
+  for (int spin = 0; spin < spins_before_sleep; ++spin) {
+    if (value.load(std::memory_order_acquire) != old) {
+      return;
+    }
+  }
+  value.wait(old, std::memory_order_acquire);
+}
+} // namespace
+
+ThreadPool::ThreadPool(int threads) {
+  for (int t = 1; t < threads; ++t) {
+    workers_.emplace_back([this, t] { work(t); });
+  }
+}
+
+ThreadPool::~ThreadPool() {
+  stop_ = true;
+  generation_.fetch_add(1, std::memory_order_release);
+  generation_.notify_all();
+  for (std::thread& worker : workers_) {
+    worker.join();
+  }
+}
+
+void ThreadPool::run(const std::function<void(int)>& task) {
+  if (workers_.empty()) {
+    task(0);
+    return;
+  }
+  task_ = &task;
+  running_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
+  generation_.fetch_add(1, std::memory_order_release);
+  generation_.notify_all();
+  task(0);
+  for (int left = running_.load(std::memory_order_acquire); left != 0;
+       left = running_.load(std::memory_order_acquire)) {
+    await_change(running_, left);
+  }
+}
+
+void ThreadPool::work(int thread) {
+  int seen = 0;
+  while (true) {
+    await_change(generation_, seen);
+    seen = generation_.load(std::memory_order_acquire);
+    if (stop_) {
+      return;
+    }
+    (*task_)(thread);
+    running_.fetch_sub(1, std::memory_order_acq_rel);
+    running_.notify_one();
+  }
+}
+
+} // namespace ballast

@@ -1,0 +1,113 @@
+// Equations of state: pressure and sound speed from density and specific energy.
+//
+// Pressure is compression-positive, absolute (Pa); specific energy J/kg; density kg/m3. Every model
+// gives pressure(rho, e), sound_speed_squared(rho, e) = dp/drho|e + p/rho^2 dp/de, and energy(rho, p).
+// Energies are per kilogram and carry no offset between materials.
+#pragma once
+
+#include <string>
+#include <variant>
+
+namespace ballast {
+
+/// p = (gamma - 1) rho e.
+struct IdealGas {
+  double gamma = 1.4;
+
+  double pressure(double rho, double e) const { return (gamma - 1) * rho * e; }
+  double sound_speed_squared(double rho, double e) const {
+    return gamma * pressure(rho, e) / rho;
+  }
+  double energy(double rho, double p) const { return p / ((gamma - 1) * rho); }
+};
+
+/// p = (gamma - 1) rho e - gamma p_infinity.
+struct StiffenedGas {
+  double gamma = 4.4;
+  double p_infinity = 6e8; ///< Pa
+
+  double pressure(double rho, double e) const {
+    return (gamma - 1) * rho * e - gamma * p_infinity;
+  }
+  double sound_speed_squared(double rho, double e) const {
+    return gamma * (pressure(rho, e) + p_infinity) / rho;
+  }
+  double energy(double rho, double p) const {
+    return (p + gamma * p_infinity) / ((gamma - 1) * rho);
+  }
+};
+
+/// Mie-Grueneisen on a linear Us-up Hugoniot (Us = c0 + s up).
+///
+/// Compression, eta = 1 - rho0/rho: p = pH + Gamma rho (e - eH), pH = rho0 c0^2 eta/(1 - s eta)^2,
+/// eH = pH eta/(2 rho0). Tension (rho < rho0): pH = rho0 c0^2 (rho/rho0 - 1), eH = 0; pressure and
+/// sound speed are continuous at rho0 for e = 0. Gamma rho is constant (default) or Gamma is.
+/// Known flaw: pH is singular at eta = 1/s; the step stops there with sound speed squared < 0 or huge.
+struct MieGruneisen {
+  double rho0 = 1000;   ///< kg/m3
+  double c0 = 1500;     ///< m/s
+  double s = 1.5;       ///< dimensionless
+  double gamma0 = 1;    ///< Grueneisen parameter at rho0
+  bool gamma_constant = false;
+
+  double gamma_rho(double rho) const { return gamma0 * (gamma_constant ? rho : rho0); }
+  double pressure(double rho, double e) const {
+    const Curve h = curve(rho);
+    return h.p + gamma_rho(rho) * (e - h.e);
+  }
+  double sound_speed_squared(double rho, double e) const {
+    const Curve h = curve(rho);
+    const double g = gamma_rho(rho);
+    const double p = h.p + g * (e - h.e);
+    const double dgamma_rho = gamma_constant ? gamma0 : 0.0;
+    return h.dp - g * h.de + dgamma_rho * (e - h.e) + p / (rho * rho) * g;
+  }
+  double energy(double rho, double p) const {
+    const Curve h = curve(rho);
+    return h.e + (p - h.p) / gamma_rho(rho);
+  }
+
+private:
+  struct Curve {
+    double p, e, dp, de; // reference curve and its derivatives by density
+  };
+  Curve curve(double rho) const {
+    const double eta = 1 - rho0 / rho;
+    const double d = 1 / (1 - s * eta);
+    const double k0 = rho0 * c0 * c0;
+    const double eta_rho = rho0 / (rho * rho);
+    const double ph = k0 * eta * d * d;
+    const double dph = k0 * (1 + s * eta) * d * d * d;
+    const bool tension = eta < 0;
+    return {tension ? k0 * (rho / rho0 - 1) : ph,
+            tension ? 0.0 : 0.5 * ph * eta / rho0,
+            tension ? c0 * c0 : dph * eta_rho,
+            tension ? 0.0 : 0.5 * (dph * eta + ph) / rho0 * eta_rho};
+  }
+};
+
+using Eos = std::variant<IdealGas, StiffenedGas, MieGruneisen>;
+
+double pressure(const Eos& eos, double rho, double e);
+double sound_speed_squared(const Eos& eos, double rho, double e);
+double energy(const Eos& eos, double rho, double p);
+std::string describe(const Eos& eos);
+
+/// One row: pressure p - p_reference (Pa) and bulk modulus rho c^2 (Pa) of `count` cells.
+/// The difference is taken against pressure(rho_ref, e_ref) by the same operations, so a cell at the
+/// reference state (within a few ulp, `snap`) gets exactly `offset`.
+struct GaugeReference {
+  double rho = 0;          ///< kg/m3
+  double e = 0;            ///< J/kg
+  double p = 0;            ///< pressure(rho, e), Pa
+  double offset = 0;       ///< p - scene reference pressure, exactly zero when they agree
+};
+void evaluate_row(const Eos& eos,
+                  const GaugeReference& ref,
+                  int count,
+                  const double* rho,
+                  const double* e,
+                  double* gauge_pressure,
+                  double* modulus);
+
+} // namespace ballast

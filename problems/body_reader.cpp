@@ -1,0 +1,219 @@
+// [[body]]: bodies described in the deck and library parts.
+#include "problems/scene_keys.hpp"
+#include "problems/scene_reading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace ballast {
+namespace {
+
+struct Context {
+  Deck& deck;
+  MaterialBook& book;
+  SceneSpec& scene;
+  std::size_t dim() const { return static_cast<std::size_t>(dimensions(scene.geometry)); }
+};
+
+void refuse(Context c, const Section& in, std::initializer_list<const char*> keys, const char* why) {
+  for (const char* key : keys) {
+    if (in.has(key)) {
+      c.deck.fail_key(*in.node(key), why);
+    }
+  }
+}
+
+bool require(Context c, const Section& in, const char* key) {
+  if (in.self().find(key) == nullptr) {
+    c.deck.fail({in.self().place, in.self().key + "." + key, "missing", scene_keys::body().find(key)->doc});
+    return false;
+  }
+  return in.has(key);
+}
+
+/// Density, pressure and energy of a body: given, else the material's and the ambient.
+void set_state(Context c, const Section& in, Body& body) {
+  if (body.material < 0) {
+    refuse(c, in, {"density", "pressure", "specific_energy"}, "a void has no state");
+    return;
+  }
+  const Material& m = c.scene.materials[static_cast<std::size_t>(body.material)];
+  body.density = in.number("density", m.density);
+  body.pressure = in.number("pressure", c.scene.ambient_pressure);
+  if (in.has("specific_energy")) {
+    if (in.has("pressure")) {
+      c.deck.fail_key(*in.node("specific_energy"), "contradicts pressure", "one of pressure and specific_energy");
+    }
+    body.specific_energy = in.number("specific_energy");
+    body.pressure = pressure(m.eos, body.density, body.specific_energy);
+  } else {
+    body.specific_energy = energy(m.eos, body.density, body.pressure);
+  }
+  const double c2 = sound_speed_squared(m.eos, body.density, body.specific_energy);
+  if (!(c2 > 0)) {
+    c.deck.fail({in.self().place,
+                 in.self().key,
+                 fmt::format("{} has no sound speed at {:g} kg/m3, {:g} Pa", m.name, body.density, body.pressure),
+                 "a density and pressure its equation of state can hold"});
+  }
+}
+
+/// A body outside the mesh is a mistake in one of the two.
+void check_place(Context c, const Section& in, const Body& body) {
+  const Bounds b = bounds(body.shape);
+  const std::vector<std::string> names = axis_names(c.scene.geometry);
+  for (std::size_t k = 0; k < c.dim(); ++k) {
+    const auto& lines = c.scene.mesh_lines[k];
+    if (!lines.empty() && (b.lo[k] >= lines.back() || b.hi[k] <= lines.front())) {
+      c.deck.fail({in.self().place,
+                   in.self().key,
+                   fmt::format("body \"{}\" lies outside the mesh along {} ({:g} to {:g} m)",
+                               body.name,
+                               names[k],
+                               b.lo[k],
+                               b.hi[k]),
+                   fmt::format("{} from {:g} to {:g} m", names[k], lines.front(), lines.back())});
+      return;
+    }
+  }
+}
+
+void add(Context c, const Section& in, Body body) {
+  for (const Body& other : c.scene.bodies) {
+    if (other.name == body.name) {
+      DeckNode* name = in.node("name");
+      c.deck.fail({name != nullptr ? name->place : in.self().place,
+                   in.self().key + ".name",
+                   fmt::format("there is another body called \"{}\"", body.name),
+                   "a name of its own"});
+      return;
+    }
+  }
+  check_place(c, in, body);
+  c.scene.bodies.push_back(std::move(body));
+}
+
+void read_plain(Context c, const Section& in) {
+  refuse(c, in, {"tip", "direction", "yaw", "core", "jacket"}, "belongs to library parts (`use`)");
+  const bool named = require(c, in, "name");
+  Body body;
+  body.name = in.text("name");
+  std::optional<int> material;
+  if (require(c, in, "material")) {
+    material = c.book.index(c.deck, in.text("material"), *in.node("material"));
+  }
+  std::optional<Shape> shape;
+  if (require(c, in, "shape")) {
+    shape = read_shape(c.deck, *in.node("shape"), c.scene.geometry);
+  }
+  if (DeckNode* velocity = in.node("velocity")) {
+    if (read_quantities(c.deck, *velocity, Dimension::velocity, {}, c.dim(), c.dim())) {
+      body.velocity = point_of(numbers_of(*velocity));
+    }
+  }
+  if (!named || !material || !shape) {
+    return;
+  }
+  body.material = *material;
+  body.shape = std::move(*shape);
+  c.scene.materials = c.book.used();
+  set_state(c, in, body);
+  add(c, in, std::move(body));
+}
+
+/// The direction of a part: an axis, turned by the yaw towards the next axis.
+std::optional<Point> part_axis(Context c, const Section& in) {
+  DeckNode* direction = in.node("direction");
+  const auto axis = read_direction(c.deck,
+                                   in.text("direction", default_direction(c.scene.geometry)),
+                                   c.scene.geometry,
+                                   direction != nullptr ? *direction : in.self());
+  const double yaw = in.number("yaw", 0);
+  if (!axis || yaw == 0) {
+    return axis;
+  }
+  if (c.scene.geometry != Geometry::three_d) {
+    c.deck.fail(*in.node("yaw"), "only a 3d scene can hold a yawed bullet", "0, or geometry = \"3d\"");
+    return std::nullopt;
+  }
+  Point turned{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    turned[k] += (*axis)[k] * std::cos(yaw);
+    turned[(k + 1) % 3] += std::abs((*axis)[k]) * std::sin(yaw);
+  }
+  return turned;
+}
+
+void read_part(Context c, const Section& in) {
+  refuse(c,
+         in,
+         {"material", "shape", "density", "pressure", "specific_energy"},
+         "a library part brings its own (`core` and `jacket` change its materials)");
+  const Part& part = *find_part(in.text("use"));
+  const std::optional<Point> axis = part_axis(c, in);
+  double speed = 0;
+  if (DeckNode* velocity = in.node("velocity")) {
+    read_quantity(c.deck, *velocity, Dimension::velocity);
+    speed = in.number("velocity", 0);
+  }
+  const std::vector<double> tip = in.numbers("tip");
+  if (in.has("tip") && tip.size() != c.dim()) {
+    c.deck.fail(*in.node("tip"),
+                fmt::format("{} coordinates in a {} scene", tip.size(), name_of(c.scene.geometry)),
+                fmt::format("{}, one an axis", c.dim()));
+    return;
+  }
+  if (c.scene.geometry == Geometry::axisymmetric && !tip.empty() && tip[0] != 0) {
+    c.deck.fail(in.node("tip")->items[0], "an axisymmetric bullet flies on the axis", "r = 0");
+    return;
+  }
+  if (!axis) {
+    return;
+  }
+  Point origin = point_of(tip);
+  Point velocity{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    origin[k] -= part.length * (*axis)[k];
+    velocity[k] = speed * (*axis)[k];
+  }
+  for (const PartBody& piece : part.bodies) {
+    DeckNode* chosen = in.node(piece.name);
+    const auto material =
+        c.book.index(c.deck, in.text(piece.name, piece.material), chosen != nullptr ? *chosen : in.self());
+    if (!material) {
+      continue;
+    }
+    Body body;
+    body.name = in.has("name") ? in.text("name") + "." + piece.name : piece.name;
+    body.material = *material;
+    body.velocity = velocity;
+    body.shape = Shape{Revolved{origin, *axis, piece.outline}};
+    if (!piece.hollow.empty()) {
+      body.shape = Shape{Combination{Combination::Kind::subtract,
+                                     {body.shape, Shape{Revolved{origin, *axis, piece.hollow}}}}};
+    }
+    c.scene.materials = c.book.used();
+    set_state(c, in, body);
+    add(c, in, std::move(body));
+  }
+}
+
+} // namespace
+
+void read_bodies(Deck& deck, DeckNode* list, MaterialBook& book, SceneSpec& scene) {
+  if (list == nullptr) {
+    return;
+  }
+  const Context c{deck, book, scene};
+  for (DeckNode& node : list->items) {
+    const Section in = read_section(deck, node, scene_keys::body());
+    if (node.find("use") == nullptr) {
+      read_plain(c, in);
+    } else if (in.has("use")) {
+      read_part(c, in);
+    }
+  }
+}
+
+} // namespace ballast

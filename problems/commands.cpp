@@ -1,0 +1,43 @@
+#include "problems/commands.hpp"
+
+#include "core/deck_keys.hpp"
+#include "materials/library.hpp"
+#include "problems/scene_keys.hpp"
+#include "problems/scene_reader.hpp"
+#include "problems/scene_report.hpp"
+
+#include <fmt/format.h>
+
+namespace ballast {
+
+int check_command(const CheckOptions& options) {
+  const ReadScene read = read_scene(options.deck, options.settings);
+  fmt::print("{}", scene_table(read.scene));
+  return static_cast<int>(ExitStatus::finished);
+}
+
+int materials_command(const std::string& name) {
+  if (name.empty()) {
+    for (const std::string& known : material_names()) {
+      fmt::print("{}\n", describe(*find_material(known)));
+    }
+    return static_cast<int>(ExitStatus::finished);
+  }
+  const Material* material = find_material(name);
+  if (material == nullptr) {
+    const std::string meant = nearest(name, material_names());
+    throw Error(fmt::format("no material is called \"{}\"{}\n  allowed: {}\n",
+                            name,
+                            meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant),
+                            one_of(material_names())));
+  }
+  fmt::print("{}", describe(*material));
+  return static_cast<int>(ExitStatus::finished);
+}
+
+int deck_reference_command() {
+  fmt::print("{}", scene_keys::reference());
+  return static_cast<int>(ExitStatus::finished);
+}
+
+} // namespace ballast

@@ -1,0 +1,93 @@
+// The program `ballast`: reads the command line, calls a command, turns what it throws into an exit status.
+#include "core/error.hpp"
+#include "post/report.hpp"
+#include "problems/commands.hpp"
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+namespace {
+
+using ballast::ExitStatus;
+
+int status(ExitStatus s) { return static_cast<int>(s); }
+
+/// Adds a subcommand whose function's result becomes the exit status.
+CLI::App* word(CLI::App& app, const char* name, const char* help, int& result, std::function<int()> run) {
+  CLI::App* sub = app.add_subcommand(name, help);
+  sub->callback([&result, run = std::move(run)] { result = run(); });
+  return sub;
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app{"Ballast: ALE multi-material impact code", "ballast"};
+  app.set_version_flag("--version", std::string("ballast ") + ballast::version);
+  app.require_subcommand(1);
+  int result = 0;
+
+  ballast::RunOptions run;
+  CLI::App* sub = word(app, "run", "run a deck", result, [&] { return ballast::run_command(run); });
+  sub->add_option("deck", run.deck, "the deck, DECK.toml")->required();
+  sub->add_option("--out", run.out, "run directory");
+  sub->add_option("--set", run.settings, "key.path=value, instead of what the deck says; may be repeated")->expected(1)->take_all();
+  sub->add_option("--threads", run.threads, "threads; default all")->check(CLI::Range(1, 4096));
+  sub->add_option("--restart", run.restart, "checkpoint to go on from");
+
+  ballast::CheckOptions check;
+  sub = word(app, "check", "validate a deck and say what it costs", result, [&] { return ballast::check_command(check); });
+  sub->add_option("deck", check.deck, "the deck, DECK.toml")->required();
+  sub->add_option("--set", check.settings, "key.path=value; may be repeated")->expected(1)->take_all();
+
+  ballast::VerifyOptions verify;
+  sub = word(app, "verify", "run verification cases", result, [&] { return ballast::verify_command(verify); });
+  sub->add_option("name", verify.names, "cases; default all");
+  sub->add_flag("--hard", verify.hard, "the slow and hard cases too");
+  sub->add_flag("--list", verify.list, "only name the cases");
+  sub->add_option("--threads", verify.threads, "threads; default all")->check(CLI::Range(1, 4096));
+
+  std::string study_deck;
+  std::vector<std::string> vary;
+  sub = word(app, "study", "vary keys of a deck (not available yet)", result, []() -> int {
+    throw ballast::Error("study is not available yet");
+  });
+  sub->add_option("deck", study_deck);
+  sub->add_option("--vary", vary);
+
+  std::string dir;
+  sub = word(app, "report", "pictures and a page of a run directory", result, [&] { ballast::post::report(dir, std::cout);
+    return status(ExitStatus::finished); });
+  sub->add_option("dir", dir, "run directory")->required();
+
+  std::string material;
+  sub = word(app, "materials", "named materials and their sources", result, [&] {
+    return ballast::materials_command(material);
+  });
+  sub->add_option("name", material);
+
+  word(app, "deck-reference", "", result, ballast::deck_reference_command)->group("");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : status(ExitStatus::bad_input);
+  }
+  return result;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const ballast::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return status(ExitStatus::bad_input);
+  } catch (const ballast::NumericalFailure& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return status(ExitStatus::numerical_failure);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ballast: %s\n", error.what());
+    return status(ExitStatus::numerical_failure);
+  }
+}

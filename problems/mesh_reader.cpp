@@ -1,0 +1,282 @@
+// [mesh]: graded lines and boundaries of each axis.
+#include "problems/mesh_lines.hpp"
+#include "problems/scene_keys.hpp"
+#include "problems/scene_reading.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace ballast {
+namespace {
+
+constexpr double most_cells = 2e8;
+constexpr double steepest_allowed = 1.5;
+
+struct Context {
+  Deck& deck;
+  MaterialBook& book;
+  SceneSpec& scene;
+  std::size_t dim() const { return static_cast<std::size_t>(dimensions(scene.geometry)); }
+};
+
+/// One length or a list of them, as a list.
+std::optional<std::vector<double>> lengths(Context c, DeckNode& node, const KeyRange& range) {
+  if (node.is_array()) {
+    if (!read_quantities(c.deck, node, Dimension::length, range, 1)) {
+      return std::nullopt;
+    }
+    return numbers_of(node);
+  }
+  if (!read_quantity(c.deck, node, Dimension::length, range)) {
+    return std::nullopt;
+  }
+  return std::vector<double>{node.number};
+}
+
+/// The node of entry i of a value that may be a list or a single one.
+DeckNode& entry(DeckNode& node, std::size_t i) { return node.is_array() ? node.items[i] : node; }
+
+bool check_rising(Context c, double from, DeckNode& to, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double before = i == 0 ? from : values[i - 1];
+    if (values[i] <= before) {
+      c.deck.fail(entry(to, i),
+                  fmt::format("{:g} m is not above {:g} m", values[i], before),
+                  "places that rise from `from`");
+      return false;
+    }
+  }
+  return true;
+}
+
+bool check_sizes(Context c, const AxisPlan& plan, DeckNode& size) {
+  const std::size_t n = plan.to.size();
+  if (plan.size.size() != n && plan.size.size() != n + 1) {
+    c.deck.fail(size,
+                fmt::format("{} sizes for {} places in `to`", plan.size.size(), n),
+                fmt::format("{} (one a place) or {} (one at `from` too)", n, n + 1));
+    return false;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t at = i + plan.size.size() - n;
+    const double stretch = plan.to[i] - (i == 0 ? plan.from : plan.to[i - 1]);
+    if (plan.size[at] > stretch * (1 + 1e-9)) {
+      c.deck.fail(entry(size, at),
+                  fmt::format("{:g} m is more than its stretch of {:g} m", plan.size[at], stretch),
+                  "a size that fits its stretch at least once");
+      return false;
+    }
+  }
+  if (planned_cells(plan) > most_cells) {
+    c.deck.fail(size, fmt::format("makes {:.3g} cells along one axis", planned_cells(plan)), "2e8 cells at most");
+    return false;
+  }
+  if (steepest_ratio(plan) > steepest_allowed) {
+    c.deck.fail(size,
+                fmt::format("neighbouring cells differ by a factor {:.2f}", steepest_ratio(plan)),
+                fmt::format("{:g} at most: a longer stretch or nearer sizes", steepest_allowed));
+    return false;
+  }
+  return true;
+}
+
+std::vector<double> equal_lines(double from, double to, int cells) {
+  std::vector<double> nodes;
+  for (int i = 0; i < cells; ++i) {
+    nodes.push_back(from + (to - from) * i / cells);
+  }
+  nodes.push_back(to);
+  return nodes;
+}
+
+std::vector<double> read_lines(Context c, const Section& in) {
+  DeckNode* to = in.node("to");
+  DeckNode* size = in.node("size");
+  DeckNode& self = in.self();
+  if (to == nullptr) {
+    c.deck.fail({self.place, self.key + ".to", "missing", "the high end, or a rising list of places"});
+  }
+  if ((size == nullptr) == (self.find("cells") == nullptr)) {
+    c.deck.fail({size == nullptr ? self.place : size->key_place,
+                 self.key + ".size",
+                 size == nullptr ? "missing" : "contradicts cells",
+                 "either `size` or `cells`"});
+    return {};
+  }
+  if (to == nullptr) {
+    return {};
+  }
+  AxisPlan plan{in.number("from"), {}, {}};
+  const auto places = lengths(c, *to, {});
+  const auto sizes = size != nullptr ? lengths(c, *size, positive()) : std::vector<double>{};
+  if (!places || !sizes || !in.has("from") || !check_rising(c, plan.from, *to, *places)) {
+    return {};
+  }
+  plan.to = *places;
+  plan.size = *sizes;
+  if (size != nullptr) {
+    return check_sizes(c, plan, *size) ? mesh_lines(plan) : std::vector<double>{};
+  }
+  if (!in.has("cells")) {
+    return {};
+  }
+  if (in.integer("cells") > most_cells || plan.to.size() > 1) {
+    c.deck.fail(*in.node("cells"), "needs one place in `to`", "2e8 cells at most, equal between `from` and `to`");
+    return {};
+  }
+  return equal_lines(plan.from, plan.to[0], in.integer("cells"));
+}
+
+void read_wall(Context c, const Section& in, Boundary& side) {
+  if (DeckNode* velocity = in.node("velocity")) {
+    read_quantity(c.deck, *velocity, Dimension::velocity);
+    side.wall_velocity = in.number("velocity", 0);
+  }
+}
+
+void read_inflow(Context c, const Section& in, Boundary& side) {
+  for (const char* key : {"material", "velocity"}) {
+    if (in.self().find(key) == nullptr) {
+      c.deck.fail({in.self().place, in.self().key + "." + key, "missing; an inflow needs it", {}});
+    }
+  }
+  if (DeckNode* velocity = in.node("velocity")) {
+    if (read_quantities(c.deck, *velocity, Dimension::velocity, {}, c.dim(), c.dim())) {
+      side.velocity = point_of(numbers_of(*velocity));
+    }
+  }
+  if (!in.has("material")) {
+    return;
+  }
+  const auto material = c.book.index(c.deck, in.text("material"), *in.node("material"));
+  if (!material) {
+    return;
+  }
+  if (*material < 0) {
+    c.deck.fail(*in.node("material"), "nothing can flow in from a void", "a material");
+    return;
+  }
+  side.material = *material;
+  c.scene.materials = c.book.used();
+  const Material& m = c.scene.materials[static_cast<std::size_t>(*material)];
+  side.density = in.number("density", m.density);
+  side.pressure = in.number("pressure", c.scene.ambient_pressure);
+  side.specific_energy = energy(m.eos, side.density, side.pressure);
+}
+
+void refuse_keys(Context c, const Section& in, std::initializer_list<const char*> keys, const std::string& kind) {
+  for (const char* key : keys) {
+    if (in.has(key)) {
+      c.deck.fail_key(*in.node(key), fmt::format("a {} boundary does not take it", kind));
+    }
+  }
+}
+
+Boundary read_boundary(Context c, DeckNode& node) {
+  Boundary side;
+  if (node.is_text() && node.text == "absorbing") {
+    c.deck.fail(node, "absorbing boundaries are not available yet", "symmetry, free, wall, inflow or outflow");
+    return side;
+  }
+  if (node.is_text()) { // a bare word is a table of that type
+    DeckNode type = node;
+    type.key = node.key;
+    node.kind = DeckNode::Kind::table;
+    node.text.clear();
+    node.fields.emplace_back("type", std::move(type));
+  }
+  if (!node.is_table()) {
+    c.deck.fail(node, fmt::format("{} is not a boundary", describe(node)), "symmetry, free, wall, outflow or a table");
+    return side;
+  }
+  const Section in = read_section(c.deck, node, scene_keys::boundary());
+  if (!in.has("type")) {
+    return side;
+  }
+  side.kind = static_cast<BoundaryKind>(in.choice("type"));
+  if (side.kind == BoundaryKind::inflow) {
+    read_inflow(c, in, side);
+    return side;
+  }
+  refuse_keys(c, in, {"material", "density", "pressure"}, in.text("type"));
+  if (side.kind == BoundaryKind::wall) {
+    read_wall(c, in, side);
+  } else {
+    refuse_keys(c, in, {"velocity"}, in.text("type"));
+  }
+  return side;
+}
+
+void add_text(DeckNode& table, const std::string& key, const std::string& text) {
+  DeckNode node;
+  node.kind = DeckNode::Kind::text;
+  node.key = table.key + "." + key;
+  node.text = text;
+  node.place = table.place;
+  node.defaulted = true;
+  table.fields.emplace_back(key, std::move(node));
+}
+
+void read_sides(Context c, const Section& in, std::size_t axis, bool symmetric) {
+  DeckNode& table = in.self();
+  const bool on_axis = c.scene.geometry == Geometry::axisymmetric && axis == 0;
+  const bool starts_at_axis = on_axis && in.number("from", 1) == 0;
+  if (table.find("lower") == nullptr) {
+    add_text(table, "lower", symmetric || starts_at_axis ? "symmetry" : "free");
+  }
+  if (table.find("upper") == nullptr) {
+    add_text(table, "upper", "free");
+  }
+  auto& sides = c.scene.boundaries[axis];
+  sides[0] = read_boundary(c, *table.find("lower"));
+  sides[1] = read_boundary(c, *table.find("upper"));
+  DeckNode& lower = *table.find("lower");
+  if ((symmetric || starts_at_axis) && !lower.bad && sides[0].kind != BoundaryKind::symmetry) {
+    c.deck.fail(lower,
+                symmetric ? "contradicts `symmetry` at the top of the deck" : "r = 0 is the axis",
+                "symmetry, or leave it out");
+  }
+  if (on_axis && in.number("from", 0) < 0) {
+    c.deck.fail(*in.node("from"), "a radius below 0", "0 or more");
+  }
+}
+
+} // namespace
+
+void read_mesh(Deck& deck,
+               DeckNode& mesh,
+               const std::vector<std::string>& symmetry,
+               MaterialBook& book,
+               SceneSpec& scene) {
+  const Context c{deck, book, scene};
+  const std::vector<std::string> names = axis_names(scene.geometry);
+  for (auto& [name, node] : mesh.fields) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      deck.fail_key(node,
+                    fmt::format("no axis of a {} scene", name_of(scene.geometry)),
+                    one_of(names));
+    }
+  }
+  double cells = 1;
+  for (std::size_t axis = 0; axis < names.size(); ++axis) {
+    DeckNode* node = mesh.find(names[axis]);
+    if (node == nullptr) {
+      deck.fail({mesh.place, mesh.key + "." + names[axis], "missing", "a table { from = ..., to = ..., size = ... }"});
+      continue;
+    }
+    if (!node->is_table()) {
+      deck.fail(*node, fmt::format("{} is not wanted here", describe(*node)), "a table { from, to, size }");
+      continue;
+    }
+    const Section in = read_section(deck, *node, scene_keys::mesh_axis());
+    scene.mesh_lines[axis] = read_lines(c, in);
+    const bool symmetric = std::find(symmetry.begin(), symmetry.end(), names[axis]) != symmetry.end();
+    read_sides(c, in, axis, symmetric);
+    cells *= static_cast<double>(std::max<std::size_t>(1, scene.mesh_lines[axis].size()) - 1);
+  }
+  if (cells > most_cells) {
+    deck.fail({mesh.place, mesh.key, fmt::format("makes {:.3g} cells", cells), "2e8 cells at most"});
+  }
+}
+
+} // namespace ballast

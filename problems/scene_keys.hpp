@@ -1,0 +1,29 @@
+// The deck language: every section and key, in one table that parses, checks and documents them.
+#pragma once
+
+#include "core/deck_keys.hpp"
+
+namespace ballast::scene_keys {
+
+const SectionSpec& top();
+const SectionSpec& ambient();
+const SectionSpec& body();
+const SectionSpec& shape();
+const SectionSpec& box(std::size_t dim);
+const SectionSpec& sphere(std::size_t dim);
+const SectionSpec& cylinder(std::size_t dim);
+const SectionSpec& revolved(std::size_t dim);
+const SectionSpec& half_space(std::size_t dim);
+const SectionSpec& mesh_axis();
+const SectionSpec& boundary();
+const SectionSpec& motion();
+const SectionSpec& material();
+const SectionSpec& numerics();
+const SectionSpec& gauge();
+const SectionSpec& output();
+const SectionSpec& results();
+
+/// docs/deck.md, whole.
+std::string reference();
+
+} // namespace ballast::scene_keys

@@ -1,0 +1,285 @@
+#include "problems/scene_reader.hpp"
+
+#include "problems/scene_keys.hpp"
+#include "problems/scene_reading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace ballast {
+namespace {
+
+/// The table of that name, made empty where the deck has none so that defaults have a place.
+DeckNode& table_of(DeckNode& root, const std::string& name) {
+  if (DeckNode* found = root.find(name)) {
+    return *found;
+  }
+  DeckNode made;
+  made.key = name;
+  made.place = root.place;
+  made.defaulted = true;
+  root.fields.emplace_back(name, std::move(made));
+  return root.fields.back().second;
+}
+
+void read_ambient(Deck& deck, DeckNode& node, SceneSpec& scene) {
+  const Section in = read_section(deck, node, scene_keys::ambient());
+  scene.ambient_pressure = in.number("pressure", scene.ambient_pressure);
+  scene.ambient_temperature = in.number("temperature", scene.ambient_temperature);
+}
+
+void read_motion(Deck& deck, DeckNode& node, Motion& motion) {
+  const Section in = read_section(deck, node, scene_keys::motion());
+  if (in.choice("policy") > 1) {
+    deck.fail(*in.node("policy"),
+              fmt::format("\"{}\" is not available yet", in.text("policy")),
+              "lagrangian or eulerian");
+    return;
+  }
+  motion.policy = static_cast<MotionPolicy>(in.choice("policy"));
+  motion.remap_every = in.integer("remap_every");
+}
+
+/// onion-skin order: the listed materials, each of those in use once; the rest follow in order of use.
+std::vector<int> interface_order(Deck& deck, DeckNode* list, const SceneSpec& scene) {
+  std::vector<int> order;
+  std::vector<std::string> names;
+  for (const Material& m : scene.materials) {
+    names.push_back(m.name);
+  }
+  for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
+    DeckNode& item = list->items[i];
+    const auto at = std::find(names.begin(), names.end(), item.text);
+    const int index = static_cast<int>(at - names.begin());
+    if (at == names.end() || std::find(order.begin(), order.end(), index) != order.end()) {
+      deck.fail(item,
+                at == names.end() ? fmt::format("\"{}\" is in no body", item.text)
+                                  : fmt::format("\"{}\" is listed twice", item.text),
+                one_of(names) + ", each once");
+      continue;
+    }
+    order.push_back(index);
+  }
+  for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+    if (std::find(order.begin(), order.end(), i) == order.end()) {
+      order.push_back(i);
+    }
+  }
+  return order;
+}
+
+void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
+  const Section in = read_section(deck, node, scene_keys::numerics());
+  Numerics& n = scene.numerics;
+  n.cfl = in.number("cfl", n.cfl);
+  n.closure = static_cast<Closure>(in.choice("closure"));
+  n.quadratic_q = in.number("quadratic_q", n.quadratic_q);
+  n.linear_q = in.number("linear_q", n.linear_q);
+  n.hourglass = in.number("hourglass", n.hourglass);
+  n.energy_return = static_cast<Switch>(in.choice("energy_return"));
+  n.normal = static_cast<InterfaceNormal>(in.choice("normal"));
+  n.interface_order = interface_order(deck, in.node("interface_order"), scene);
+  n.dt_initial = in.number("dt_initial", n.dt_initial);
+  n.dt_growth = in.number("dt_growth", n.dt_growth);
+  n.dt_max = in.number("dt_max", n.dt_max);
+  n.spall = in.flag("spall");
+}
+
+/// Checks the length and that the point lies in the mesh.
+bool check_gauge_place(Deck& deck, DeckNode& at, const SceneSpec& scene) {
+  const std::vector<std::string> names = axis_names(scene.geometry);
+  if (at.items.size() != names.size()) {
+    deck.fail(at,
+              fmt::format("{} coordinates in a {} scene", at.items.size(), name_of(scene.geometry)),
+              fmt::format("{}, one an axis", names.size()));
+    return false;
+  }
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto& lines = scene.mesh_lines[k];
+    const double x = at.items[k].number;
+    if (!lines.empty() && (x < lines.front() || x > lines.back())) {
+      deck.fail(at.items[k],
+                fmt::format("{:g} m lies outside the mesh", x),
+                fmt::format("{} from {:g} to {:g} m", names[k], lines.front(), lines.back()));
+      return false;
+    }
+  }
+  return true;
+}
+
+void read_gauges(Deck& deck, DeckNode* list, SceneSpec& scene) {
+  for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
+    const Section in = read_section(deck, list->items[i], scene_keys::gauge());
+    Gauge gauge{in.text("name"), point_of(in.numbers("at")), in.flag("rides"), in.texts("record")};
+    for (const Gauge& other : scene.gauges) {
+      if (in.has("name") && other.name == gauge.name) {
+        deck.fail(*in.node("name"),
+                  fmt::format("there is another gauge called \"{}\"", gauge.name),
+                  "a name of its own");
+        break;
+      }
+    }
+    if (in.has("at") && check_gauge_place(deck, *in.node("at"), scene)) {
+      scene.gauges.push_back(std::move(gauge));
+    }
+  }
+}
+
+void read_output(Deck& deck, DeckNode& node, Output& output) {
+  const Section in = read_section(deck, node, scene_keys::output());
+  output.fields_every = in.number("fields_every", output.fields_every);
+  output.fields = in.texts("fields");
+  output.history_every = in.number("history_every", output.history_every);
+  output.checkpoint_every = in.number("checkpoint_every", output.checkpoint_every);
+}
+
+int body_called(const SceneSpec& scene, const std::string& name) {
+  const auto at = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) {
+    return b.name == name;
+  });
+  return at == scene.bodies.end() ? -1 : static_cast<int>(at - scene.bodies.begin());
+}
+
+void read_bullet(Deck& deck, DeckNode& list, SceneSpec& scene) {
+  std::vector<std::string> names;
+  for (const Body& b : scene.bodies) {
+    names.push_back(b.name);
+  }
+  for (DeckNode& item : list.items) {
+    const int body = body_called(scene, item.text);
+    if (body < 0) {
+      const std::string meant = nearest(item.text, names);
+      deck.fail(item,
+                fmt::format("no body is called \"{}\"{}",
+                            item.text,
+                            meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)),
+                one_of(names));
+      continue;
+    }
+    scene.results.bullet.push_back(body);
+    scene.results.bullet_names.push_back(item.text);
+  }
+}
+
+/// The axis of flight, and the face of the target that meets the bullet first.
+void find_shot(SceneSpec& scene) {
+  Results& r = scene.results;
+  if (r.bullet.empty()) {
+    return;
+  }
+  const Point& u = scene.bodies[static_cast<std::size_t>(r.bullet.front())].velocity;
+  const auto axis = static_cast<std::size_t>(
+      std::max_element(u.begin(), u.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+      u.begin());
+  if (u[axis] == 0) {
+    return;
+  }
+  r.shot_axis = static_cast<int>(axis);
+  r.shot_direction = u[axis] < 0 ? -1 : 1;
+  for (const Body& b : scene.bodies) {
+    if (b.material < 0 || b.material != r.target) {
+      continue;
+    }
+    const Bounds extent = bounds(b.shape);
+    const double face = r.shot_direction > 0 ? extent.lo[axis] : extent.hi[axis];
+    const bool first = std::isnan(r.target_face) || r.shot_direction * (face - r.target_face) < 0;
+    r.target_face = first ? face : r.target_face;
+  }
+}
+
+void read_results(Deck& deck, DeckNode& node, SceneSpec& scene) {
+  const Section in = read_section(deck, node, scene_keys::results());
+  if (DeckNode* bullet = in.node("bullet")) {
+    read_bullet(deck, *bullet, scene);
+  }
+  if (in.has("target")) {
+    std::vector<std::string> names;
+    for (const Material& m : scene.materials) {
+      names.push_back(m.name);
+    }
+    const auto at = std::find(names.begin(), names.end(), in.text("target"));
+    if (at == names.end()) {
+      deck.fail(*in.node("target"), fmt::format("\"{}\" is in no body", in.text("target")), one_of(names));
+    } else {
+      scene.results.target = static_cast<int>(at - names.begin());
+    }
+  }
+  find_shot(scene);
+}
+
+void read_background(Deck& deck, const Section& top, MaterialBook& book, SceneSpec& scene) {
+  DeckNode* node = top.node("background");
+  if (node == nullptr) {
+    return;
+  }
+  scene.background = book.index(deck, node->text, *node).value_or(-1);
+  if (scene.bodies.empty() && scene.background < 0 && deck.clean()) {
+    deck.fail({top.self().place, "body", "the scene is empty", "at least one [[body]], or a background"});
+  }
+}
+
+/// Tables that every scene has, given or not; a value of another type has been reported already.
+DeckNode* usable(DeckNode& root, const std::string& name) {
+  DeckNode& node = table_of(root, name);
+  return node.is_table() ? &node : nullptr;
+}
+
+} // namespace
+
+SceneSpec read_scene(Deck& deck) {
+  SceneSpec scene;
+  if (!deck.clean()) {
+    return scene; // not even TOML
+  }
+  DeckNode& root = deck.root();
+  for (const char* name : {"ambient", "motion", "numerics", "output"}) {
+    table_of(root, name); // before any pointer into the tree is kept
+  }
+  const Section top = read_section(deck, root, scene_keys::top());
+  scene.title = top.text("title");
+  scene.end_time = top.number("end_time", 0);
+  if (DeckNode* ambient = usable(root, "ambient")) {
+    read_ambient(deck, *ambient, scene);
+  }
+  MaterialBook book(deck, top.node("materials"), scene.ambient_pressure, scene.ambient_temperature);
+  if (DeckNode* motion = usable(root, "motion")) {
+    read_motion(deck, *motion, scene.motion);
+  }
+  if (DeckNode* output = usable(root, "output")) {
+    read_output(deck, *output, scene.output);
+  }
+  const bool has_geometry = top.has("geometry");
+  if (has_geometry) {
+    scene.geometry = static_cast<Geometry>(top.choice("geometry"));
+    if (DeckNode* symmetry = top.node("symmetry"); symmetry != nullptr && scene.geometry != Geometry::three_d &&
+                                                   !symmetry->items.empty()) {
+      deck.fail_key(*symmetry, "only in a 3d scene", "`lower = \"symmetry\"` in [mesh.AXIS]");
+    }
+    // The mesh first, so that bodies and gauges can be placed against it; an inflow's material then
+    // follows those of the bodies only if bodies name it too.
+    if (DeckNode* mesh = top.node("mesh")) {
+      read_mesh(deck, *mesh, top.texts("symmetry"), book, scene);
+    }
+    read_bodies(deck, top.node("body"), book, scene);
+    read_background(deck, top, book, scene);
+    scene.materials = book.used();
+    read_gauges(deck, top.node("gauge"), scene);
+    if (DeckNode* results = top.node("results")) {
+      read_results(deck, *results, scene);
+    }
+  }
+  if (DeckNode* numerics = usable(root, "numerics")) {
+    read_numerics(deck, *numerics, scene);
+  }
+  return scene;
+}
+
+ReadScene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  Deck deck = Deck::load(path, overrides);
+  SceneSpec scene = read_scene(deck);
+  deck.throw_if_errors();
+  return {std::move(scene), write_toml(deck.root()), deck.text()};
+}
+
+} // namespace ballast

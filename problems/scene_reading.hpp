@@ -1,0 +1,63 @@
+// Parts of the scene reader that know one kind of thing each. Private to problems/.
+#pragma once
+
+#include "core/deck_keys.hpp"
+#include "problems/scene_spec.hpp"
+
+#include <map>
+#include <optional>
+
+namespace ballast {
+
+/// Named materials with the deck's overrides; hands out indices in order of first use.
+class MaterialBook {
+public:
+  /// Reads [materials]; `table` may be null.
+  MaterialBook(Deck& deck, DeckNode* table, double ambient_pressure, double ambient_temperature);
+  /// Index of a material, -1 for void; nothing (and an error at `blame`) for an unknown one.
+  std::optional<int> index(Deck& deck, const std::string& name, DeckNode& blame);
+  const std::vector<Material>& used() const { return used_; }
+
+private:
+  void define(Deck& deck, const std::string& name, DeckNode& node);
+  double pressure_, temperature_;
+  std::map<std::string, Material> defined_;
+  std::vector<std::string> broken_; ///< defined with errors: no second error where they are used
+  std::vector<Material> used_;
+};
+
+/// A `shape` table; nothing (and errors) if it is not one.
+std::optional<Shape> read_shape(Deck& deck, DeckNode& node, Geometry geometry);
+
+/// Shapes of the library part `name` ("bullet/m80"), tip at the origin, nose along +axis.
+struct PartBody {
+  std::string name, material;
+  std::vector<std::array<double, 2>> outline; ///< z (0 at the base), r
+  std::vector<std::array<double, 2>> hollow;  ///< taken out of it, may be empty
+};
+struct Part {
+  double length; ///< base to tip, m
+  std::vector<PartBody> bodies;
+};
+const Part* find_part(std::string_view name);
+
+/// Unit vector of "+x" ... "-z" in mesh axes; nothing (and an error at `blame`) if the geometry lacks it.
+std::optional<Point> read_direction(Deck& deck, const std::string& text, Geometry geometry, DeckNode& blame);
+
+/// "+z", planar "+x".
+std::string default_direction(Geometry geometry);
+
+/// Numbers of a list as a point; absent coordinates 0.
+Point point_of(const std::vector<double>& values);
+
+/// All [[body]] entries.
+void read_bodies(Deck& deck, DeckNode* list, MaterialBook& book, SceneSpec& scene);
+
+/// [mesh] with lines and boundaries.
+void read_mesh(Deck& deck,
+               DeckNode& mesh,
+               const std::vector<std::string>& symmetry,
+               MaterialBook& book,
+               SceneSpec& scene);
+
+} // namespace ballast

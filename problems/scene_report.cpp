@@ -1,0 +1,198 @@
+#include "problems/scene_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace ballast {
+namespace {
+
+/// Calls visit(lo, hi) for every cell whose place overlaps `b`.
+template <class Visit> void for_cells(const SceneSpec& scene, const Bounds& b, Visit visit) {
+  std::array<std::pair<std::size_t, std::size_t>, 3> range{{{0, 1}, {0, 1}, {0, 1}}};
+  const auto dim = static_cast<std::size_t>(dimensions(scene.geometry));
+  for (std::size_t k = 0; k < dim; ++k) {
+    const auto& x = scene.mesh_lines[k];
+    const auto first = std::upper_bound(x.begin(), x.end(), b.lo[k]) - x.begin();
+    const auto last = std::lower_bound(x.begin(), x.end(), b.hi[k]) - x.begin();
+    range[k] = {static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, first - 1)),
+                std::min(x.size() - 1, static_cast<std::size_t>(last))};
+  }
+  Point lo{}, hi{};
+  const auto place = [&](std::size_t axis, std::size_t i) {
+    if (axis < dim) {
+      lo[axis] = scene.mesh_lines[axis][i];
+      hi[axis] = scene.mesh_lines[axis][i + 1];
+    }
+  };
+  for (std::size_t k = range[2].first; k < range[2].second; ++k) {
+    place(2, k);
+    for (std::size_t j = range[1].first; j < range[1].second; ++j) {
+      place(1, j);
+      for (std::size_t i = range[0].first; i < range[0].second; ++i) {
+        place(0, i);
+        visit(lo, hi);
+      }
+    }
+  }
+}
+
+std::string boundary_text(const Boundary& b, const SceneSpec& scene) {
+  switch (b.kind) {
+  case BoundaryKind::symmetry:
+    return "symmetry";
+  case BoundaryKind::free:
+    return "free";
+  case BoundaryKind::wall:
+    return b.wall_velocity == 0 ? "wall" : fmt::format("wall at {:g} m/s", b.wall_velocity);
+  case BoundaryKind::inflow:
+    return fmt::format("inflow of {}", scene.materials[static_cast<std::size_t>(b.material)].name);
+  case BoundaryKind::outflow:
+    break;
+  }
+  return "outflow";
+}
+
+std::string mesh_table(const SceneSpec& scene) {
+  std::string out = fmt::format("mesh: {} cells\n", cell_count(scene));
+  const std::vector<std::string> names = axis_names(scene.geometry);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto& x = scene.mesh_lines[k];
+    double smallest = x.back() - x.front(), largest = 0;
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+      smallest = std::min(smallest, x[i + 1] - x[i]);
+      largest = std::max(largest, x[i + 1] - x[i]);
+    }
+    out += fmt::format("  {}  {:9.3f} to {:9.3f} mm  {:6} cells of {:.4g} to {:.4g} mm  {} | {}\n",
+                       names[k],
+                       x.front() * 1e3,
+                       x.back() * 1e3,
+                       x.size() - 1,
+                       smallest * 1e3,
+                       largest * 1e3,
+                       boundary_text(scene.boundaries[k][0], scene),
+                       boundary_text(scene.boundaries[k][1], scene));
+  }
+  return out;
+}
+
+std::string material_table(const SceneSpec& scene) {
+  std::string out = "materials\n";
+  for (const Material& m : scene.materials) {
+    out += fmt::format("  {:<16} {:9.4g} kg/m3  {}; strength: {}{}  [{}]\n",
+                       m.name,
+                       m.density,
+                       describe(m.eos),
+                       describe(m.strength),
+                       std::isfinite(m.spall_pressure) ? fmt::format("; spall {:.3g} Pa", m.spall_pressure) : "",
+                       m.confidence);
+  }
+  return out + fmt::format("  background: {}\n",
+                           scene.background < 0 ? "void"
+                                                : scene.materials[static_cast<std::size_t>(scene.background)].name);
+}
+
+std::string body_table(const SceneSpec& scene) {
+  const std::vector<Filled> filled = filled_bodies(scene);
+  const bool planar = scene.geometry == Geometry::planar;
+  std::string out = fmt::format("bodies (later ones replace earlier ones){}\n",
+                                scene.geometry == Geometry::three_d ? "; masses are of the part inside the mesh" : "");
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& b = scene.bodies[i];
+    const double speed = std::hypot(b.velocity[0], b.velocity[1], b.velocity[2]);
+    out += fmt::format("  {:<16} {:<16} {:12.6g} {}  {:8.4g} m/s  {:.5g} J  {}\n",
+                       b.name,
+                       b.material < 0 ? "void" : scene.materials[static_cast<std::size_t>(b.material)].name,
+                       filled[i].mass * (planar ? 1 : 1e3),
+                       planar ? "kg/m" : "g",
+                       speed,
+                       0.5 * filled[i].mass * speed * speed,
+                       describe(b.shape));
+  }
+  return out;
+}
+
+std::string numerics_line(const SceneSpec& scene) {
+  const char* closures[] = {"pressure relaxation", "Tipton", "equal strain"};
+  const char* normals[] = {"ELVIRA", "mixed Youngs-centred", "Youngs"};
+  const std::string motion = scene.motion.policy == MotionPolicy::lagrangian
+                                 ? "never remapped"
+                                 : fmt::format("remapped every {} step(s)", scene.motion.remap_every);
+  return fmt::format("numerics: {}, cfl {:g}, closure {}, normals {}\n",
+                     motion,
+                     scene.numerics.cfl,
+                     closures[static_cast<int>(scene.numerics.closure)],
+                     normals[static_cast<int>(scene.numerics.normal)]);
+}
+
+} // namespace
+
+double cell_volume(Geometry geometry, const Point& lo, const Point& hi) {
+  const double area = (hi[0] - lo[0]) * (hi[1] - lo[1]);
+  switch (geometry) {
+  case Geometry::planar:
+    return area;
+  case Geometry::axisymmetric:
+    return area * std::numbers::pi * (lo[0] + hi[0]);
+  case Geometry::three_d:
+    break;
+  }
+  return area * (hi[2] - lo[2]);
+}
+
+std::vector<Filled> filled_bodies(const SceneSpec& scene) {
+  std::vector<Filled> filled(scene.bodies.size());
+  std::vector<const Shape*> above;
+  std::vector<double> shares;
+  for (std::size_t i = scene.bodies.size(); i-- > 0;) {
+    above.insert(above.begin(), &scene.bodies[i].shape); // this body and those that replace it
+    shares.resize(above.size());
+    for_cells(scene, bounds(scene.bodies[i].shape), [&](const Point& lo, const Point& hi) {
+      visible_fractions(above, scene.geometry, lo, hi, shares);
+      filled[i].volume += shares[0] * cell_volume(scene.geometry, lo, hi);
+    });
+    filled[i].mass = filled[i].volume * scene.bodies[i].density;
+  }
+  return filled;
+}
+
+double estimated_steps(const SceneSpec& scene) {
+  double fastest = 0;
+  for (const Body& b : scene.bodies) {
+    if (b.material >= 0) {
+      const Material& m = scene.materials[static_cast<std::size_t>(b.material)];
+      const double c2 = sound_speed_squared(m.eos, b.density, b.specific_energy) +
+                        4.0 / 3.0 * shear_modulus(m.strength) / b.density;
+      fastest = std::max(fastest, std::sqrt(c2));
+    }
+  }
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& x : scene.mesh_lines) {
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+      smallest = std::min(smallest, x[i + 1] - x[i]);
+    }
+  }
+  return fastest > 0 ? scene.end_time * fastest / (scene.numerics.cfl * smallest) : 0;
+}
+
+std::string scene_table(const SceneSpec& scene) {
+  std::string out = fmt::format("{}\n{}, to {:g} us, ambient {:g} Pa, {:g} K\n",
+                                scene.title,
+                                name_of(scene.geometry),
+                                scene.end_time * 1e6,
+                                scene.ambient_pressure,
+                                scene.ambient_temperature);
+  out += mesh_table(scene) + material_table(scene) + body_table(scene) + numerics_line(scene);
+  for (const Gauge& g : scene.gauges) {
+    out += fmt::format("gauge \"{}\" at ({:g}, {:g}, {:g}) m, {}\n",
+                       g.name,
+                       g.at[0],
+                       g.at[1],
+                       g.at[2],
+                       g.rides ? "rides with the material" : "fixed");
+  }
+  return out + fmt::format("about {:.0f} steps\n", estimated_steps(scene));
+}
+
+} // namespace ballast

@@ -1,0 +1,127 @@
+// SceneSpec: everything a run needs, resolved and validated, in SI. problems/scene_reader makes it from
+// a deck; verification runs make it by hand. Nothing here refers to the deck any more.
+#pragma once
+
+#include "materials/material.hpp"
+#include "problems/shapes.hpp"
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace ballast {
+
+enum class BoundaryKind { symmetry, free, wall, inflow, outflow };
+
+/// One side of the mesh. Symmetry at r = 0 is the axis.
+struct Boundary {
+  BoundaryKind kind = BoundaryKind::free;
+  double wall_velocity = 0; ///< wall: velocity along the axis it closes, m/s
+  int material = -1;        ///< inflow: index into SceneSpec::materials
+  Point velocity{};         ///< inflow, m/s
+  double density = 0;       ///< inflow, kg/m3
+  double pressure = 0;      ///< inflow, Pa
+  double specific_energy = 0; ///< inflow, J/kg, from density and pressure
+};
+
+/// A piece of the initial state. Later bodies replace earlier ones where they overlap.
+struct Body {
+  std::string name;
+  int material = -1; ///< index into SceneSpec::materials, -1: void (a hole)
+  Shape shape;
+  Point velocity{};           ///< m/s
+  double density = 0;         ///< kg/m3, the material's unless the deck says otherwise
+  double pressure = 0;        ///< Pa, ambient unless the deck says otherwise
+  double specific_energy = 0; ///< J/kg, from density and pressure unless the deck gives it
+};
+
+/// relax and follow are not available yet: the deck reader refuses them.
+enum class MotionPolicy { lagrangian, eulerian };
+
+struct Motion {
+  MotionPolicy policy = MotionPolicy::eulerian;
+  int remap_every = 1; ///< steps between remaps (eulerian)
+};
+
+enum class Closure { pressure_relaxation, tipton, equal_strain };
+enum class Switch { automatic, on, off };
+enum class InterfaceNormal { elvira, mixed_youngs_centred, youngs };
+
+struct Numerics {
+  double cfl = 0.5;
+  Closure closure = Closure::pressure_relaxation;
+  double quadratic_q = 1.0; ///< factor on the Kuropatenko coefficient (g+1)/4
+  double linear_q = 0.5;    ///< factor on the sound speed
+  double hourglass = 0.01;  ///< Flanagan-Belytschko, viscous
+  /// Kinetic energy lost in the remap goes back to heat. automatic: on without strength, off with it.
+  Switch energy_return = Switch::automatic;
+  InterfaceNormal normal = InterfaceNormal::elvira;
+  /// Onion-skin order: indices into SceneSpec::materials, first peeled first; void is last.
+  std::vector<int> interface_order;
+  double dt_initial = 0; ///< s, 0: the stable step
+  double dt_growth = 1.1;
+  double dt_max = std::numeric_limits<double>::infinity();
+  bool spall = true; ///< void opens below a material's spall pressure
+};
+
+/// A point that records. `rides`: moves with the material, else fixed in space.
+struct Gauge {
+  std::string name;
+  Point at{};
+  bool rides = false;
+  std::vector<std::string> record; ///< of gauge_quantities()
+};
+using NamedProbe = Gauge;
+
+struct Output {
+  double fields_every = std::numeric_limits<double>::infinity();  ///< s; start and end always
+  std::vector<std::string> fields;                                ///< of field_quantities()
+  double history_every = 0;                                       ///< s, 0: every step
+  double checkpoint_every = std::numeric_limits<double>::infinity(); ///< s of wall clock
+};
+
+/// What summary.json reports beyond the ledger. Indices into bodies and materials; empty, -1: nothing.
+struct Results {
+  std::vector<int> bullet;       ///< bodies that together are the bullet: speed, mass, extents, depth
+  std::vector<std::string> bullet_names;
+  int target = -1;               ///< material whose cavity and energy gain are reported
+  double target_face = std::numeric_limits<double>::quiet_NaN(); ///< depth counts from here along the shot
+  int shot_axis = 1;             ///< mesh axis the bullet flies along
+  double shot_direction = 1;     ///< +1 or -1 on that axis
+};
+
+struct SceneSpec {
+  std::string title;
+  Geometry geometry = Geometry::planar;
+  /// Node coordinates of the rectilinear mesh along each axis, ascending (m); third empty in 2D.
+  std::array<std::vector<double>, 3> mesh_lines;
+  std::array<std::array<Boundary, 2>, 3> boundaries; ///< [axis][0 low side, 1 high side]
+  double end_time = 0;                               ///< s
+  double ambient_pressure = 101325;                  ///< Pa; also p_ref of the gauge pressures
+  double ambient_temperature = 293;                  ///< K
+  /// Those in use only, deck overrides applied, specific_energy set from the ambient pressure.
+  std::vector<Material> materials;
+  std::vector<Body> bodies;
+  int background = -1; ///< material where no body is, -1: void
+  Motion motion;
+  Numerics numerics;
+  std::vector<Gauge> gauges;
+  Output output;
+  Results results;
+};
+
+/// Names a deck may list under gauge.record and output.fields.
+const std::vector<std::string>& gauge_quantities();
+const std::vector<std::string>& field_quantities();
+
+/// "planar", "axisymmetric", "3d".
+std::string name_of(Geometry geometry);
+/// Names of the mesh axes, "r", "z" or "x", "y", "z".
+std::vector<std::string> axis_names(Geometry geometry);
+/// Cells of the mesh, all axes multiplied.
+std::size_t cell_count(const SceneSpec& scene);
+/// Shares of the cell lo..hi that each body shows, later bodies replacing earlier ones.
+void body_fractions(const SceneSpec& scene, const Point& lo, const Point& hi, std::span<double> shares);
+
+} // namespace ballast

@@ -1,0 +1,22 @@
+// Pieces of a remap sweep, private to remap/.
+#pragma once
+
+#include "remap/mesh.hpp"
+
+namespace ballast::remap {
+
+template <int Dim>
+void compute_swept(Mesh<Dim>& mesh, ThreadPool& pool, const std::array<RowField, Dim>& from, const std::array<RowField, Dim>& to);
+
+/// Allocates tiles that a sweep may reach and fills every ghost the sweep reads.
+template <int Dim> void exchange_for_sweep(Mesh<Dim>& mesh);
+
+/// Cells' part of a sweep along `axis`: volumes, fractions, masses, intensives; leaves mass_flux.
+template <int Dim>
+void sweep_cells(Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, int axis, Report& report);
+
+/// Nodes' part: momentum on the dual mesh with the cells' mass fluxes, kinetic energy returned.
+template <int Dim>
+void sweep_nodes(Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, int axis, Report& report);
+
+} // namespace ballast::remap

@@ -1,0 +1,81 @@
+// What a remap works on: views into a block's nodes, cells and material stores. remap/ moves
+// conserved quantities and knows no equation of state.
+//
+// Of every material's store, conserved field 0 is its volume fraction, 1 its mass (kg), 2 and up
+// are intensive (per mass): specific energy first, then history. A void store has field 0 only.
+#pragma once
+
+#include "core/grid.hpp"
+#include "core/threads.hpp"
+#include "core/tile_store.hpp"
+#include "remap/normal.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace ballast::remap {
+
+template <int Dim> struct Mesh {
+  const Grid& grid;
+  bool axisymmetric = false;
+  std::array<std::array<bool, 2>, 3> open{};         ///< sides material may cross
+  std::array<std::array<bool, 2>, 3> void_outside{}; ///< open sides behind which there is void
+  std::array<RowField, Dim>& position;               ///< in: where the nodes are; out: the target
+  const std::array<RowField, Dim>& target;
+  RowField& volume;      ///< m3; out: volumes swept to the target
+  RowField& next_volume; ///< scratch
+  std::array<RowField, Dim>& velocity;
+  std::array<RowField, Dim>& next_velocity; ///< scratch
+  RowField& node_mass;
+  const std::array<std::vector<double>, Dim>&
+      low_share;                        ///< mass share of the lower node, by cell + ghost
+  std::array<RowField, Dim>& swept;     ///< scratch, faces: volume swept along +axis, m3
+  std::array<RowField, Dim>& mass_flux; ///< scratch, faces: mass through the face along +axis, kg
+  std::vector<TileStore*> materials;    ///< void last, if any
+  bool has_void = false;
+  std::vector<std::int8_t>& owner;                       ///< the only material of a cell, or -1
+  std::function<void(RowField&, int)> exchange_velocity; ///< fills ghosts of a component
+
+  std::int8_t* owner_row(int r) {
+    return owner.data() + static_cast<std::ptrdiff_t>(r) * grid.cell_pitch() + grid.ghost[0];
+  }
+  const std::int8_t* owner_row(int r) const {
+    return owner.data() + static_cast<std::ptrdiff_t>(r) * grid.cell_pitch() + grid.ghost[0];
+  }
+  int material_count() const { return static_cast<int>(materials.size()); }
+  bool is_void(int m) const { return has_void && m == material_count() - 1; }
+};
+
+struct Settings {
+  NormalMethod normal = NormalMethod::elvira;
+  double largest_swept = 0.5; ///< of the donor's volume in one pseudo-step
+  bool limit = true;          ///< off: unlimited second order, for order tests
+  bool return_kinetic = true; ///< kinetic energy lost goes to internal energy
+};
+
+/// What a remap moved out of the block or lost.
+struct Report {
+  int substeps = 0;
+  std::vector<double> mass_out;             ///< kg by material
+  double internal_out = 0, kinetic_out = 0; ///< J
+  std::array<double, 3> momentum_out = {0, 0, 0};
+  double kinetic_loss = 0;     ///< J, lost by averaging velocities (before any return)
+  double kinetic_returned = 0; ///< J, of that, put into internal energy
+  long energy_floors = 0;      ///< cells where a negative return was cut
+  double sliver_mass = 0, sliver_energy = 0;
+  long slivers = 0;
+};
+
+/// Moves everything from mesh.position to mesh.target. `order`: which axis goes first alternates
+/// with it.
+template <int Dim>
+Report remap(Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, long order);
+
+/// One pseudo-step with swept volumes already in mesh.swept (verification flows prescribe them).
+template <int Dim>
+void sweep_all(
+    Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, long order, Report& report);
+
+} // namespace ballast::remap

@@ -1,0 +1,491 @@
+// One split sweep of the cell quantities along a logical axis.
+//
+// A face sweeps the volume s along +axis, so t = -s is carried through it along +axis; its donor is the
+// cell below for t > 0, above for t < 0. Per face: volume of each material (the pure donor's, or PLIC
+// slabs of the donor's planes), mass = volume x limited density, intensives = mass x limited value.
+// Slopes are taken in the volume (density) and mass (intensives) coordinate along the line, which is
+// exact for linear data on rectilinear meshes; next to mixed cells the value is constant.
+#include "remap/internal.hpp"
+
+#include "remap/limiter.hpp"
+#include "remap/onion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace ballast::remap {
+
+namespace {
+
+constexpr double sliver_fraction = 1e-12; ///< below it a material is round-off and is dropped, with a count
+constexpr double flush_fraction = 1e-6;   ///< a donor left with less than this gives it all
+constexpr double slope_fraction = 0.999;  ///< a donor holding less has no slope
+constexpr double neighbour_fraction = 0.01;
+constexpr int most_materials = 16;
+
+/// Fluxes through one row of faces, per material and conserved field; zero where a material has none.
+class FaceRow {
+public:
+  template <int Dim> FaceRow(const Mesh<Dim>& m, int faces) : faces_(faces) {
+    int fields = 0;
+    for (const TileStore* s : m.materials) {
+      first_.push_back(fields);
+      fields += s->conserved();
+    }
+    data_.assign(static_cast<std::size_t>(fields * faces), 0.0);
+    present_.assign(m.materials.size(), false);
+  }
+  double* flux(int material, int field) {
+    return data_.data() + (first_[static_cast<std::size_t>(material)] + field) * faces_;
+  }
+  bool present(int material) const { return present_[static_cast<std::size_t>(material)]; }
+  void set_present(int material, bool p) { present_[static_cast<std::size_t>(material)] = p; }
+  int faces() const { return faces_; }
+
+private:
+  int faces_;
+  std::vector<int> first_;
+  std::vector<char> present_;
+  std::vector<double> data_;
+};
+
+/// The four rows along the axis around a row of faces: cells two below, below, above, two above.
+struct Line {
+  int row[4];
+  int shift[4]; // of i, for axis 0
+};
+
+Line line_of(const Grid& g, int axis, int j, int k) {
+  const int r = g.cell_row(j, k), s = g.cell_row_stride(axis);
+  if (axis == 0) {
+    return {{r, r, r, r}, {-2, -1, 0, 1}};
+  }
+  return {{r - 2 * s, r - s, r, r + s}, {0, 0, 0, 0}};
+}
+
+/// 3^Dim stencils of cumulated fractions around a cell, material by material.
+template <int Dim> int stencils(const Mesh<Dim>& m, int r, int i, int* present, double* cumulated) {
+  constexpr int size = stencil_size<Dim>;
+  int count = 0;
+  for (int k = 0; k < m.material_count(); ++k) {
+    const TileStore& s = *m.materials[static_cast<std::size_t>(k)];
+    if (s.has_row(r) && s.row(0, r)[i] > 0 && count < most_materials) {
+      present[count++] = k;
+    }
+  }
+  // Interface q holds everything up to and including present[q]; absent materials in between (present
+  // only in neighbours) are counted with the earlier one, so that a layer's two sides see one plane.
+  for (int q = 0; q + 1 < count; ++q) {
+    double* out = cumulated + q * size;
+    std::fill(out, out + size, 0.0);
+    for (int k = 0; k < present[q + 1]; ++k) {
+      const TileStore& s = *m.materials[static_cast<std::size_t>(k)];
+      int at = 0;
+      for (int dk = Dim == 3 ? -1 : 0; dk <= (Dim == 3 ? 1 : 0); ++dk) {
+        for (int dj = -1; dj <= 1; ++dj) {
+          const double* f = s.row(0, r + dj + dk * m.grid.cell_rows_per_plane()) + i;
+          for (int di = -1; di <= 1; ++di) {
+            out[at++] += f[di];
+          }
+        }
+      }
+    }
+  }
+  return count;
+}
+
+/// Volumes that a mixed donor gives through one face, into the materials' flux[0] at `face`.
+template <int Dim>
+void mixed_donor(const Mesh<Dim>& m, const Settings& s, int axis, int r, int i, double t, bool both_faces_give, FaceRow& out, int face) {
+  constexpr int size = stencil_size<Dim>;
+  int present[most_materials];
+  double cumulated[most_materials * size];
+  const int count = stencils(m, r, i, present, cumulated);
+  Interface<Dim> planes[most_materials];
+  onion_interfaces<Dim>(s.normal, cumulated, count - 1, planes);
+  const double volume = m.volume.row(r)[i], part = std::min(1.0, std::abs(t) / volume);
+  double given[most_materials], held[most_materials], sum = 0;
+  slab_volumes<Dim>(planes, count - 1, axis, t > 0 ? 1 - part : 0.0, t > 0 ? 1.0 : part, given);
+  int largest = 0;
+  for (int q = 0; q < count; ++q) {
+    held[q] = m.materials[static_cast<std::size_t>(present[q])]->row(0, r)[i] * volume;
+    given[q] = std::min(given[q] * volume, held[q]);
+    if (!both_faces_give && held[q] - given[q] < flush_fraction * volume && given[q] > 0) {
+      given[q] = held[q]; // no sliver stays behind
+    }
+    sum += given[q];
+    largest = held[q] - given[q] > held[largest] - given[largest] ? q : largest;
+  }
+  // The rest of the face's total comes from, or goes back to, whoever has most left.
+  double rest = std::abs(t) - sum;
+  for (int pass = 0; pass < count && rest != 0; ++pass) {
+    const double take = std::clamp(rest, -given[largest], held[largest] - given[largest]);
+    given[largest] += take;
+    rest -= take;
+    for (int q = 0; q < count; ++q) {
+      const auto room = [&](int c) { return rest > 0 ? held[c] - given[c] : given[c]; };
+      largest = room(q) > room(largest) ? q : largest;
+    }
+  }
+  for (int q = 0; q < count; ++q) {
+    if (given[q] > 0) {
+      if (!out.present(present[q])) {
+        out.set_present(present[q], true);
+        double* f = out.flux(present[q], 0);
+        std::fill(f, f + out.faces(), 0.0);
+      }
+      out.flux(present[q], 0)[face] = std::copysign(given[q], t);
+    }
+  }
+}
+
+/// Material volumes through a row of faces; i of face 0 is cell index 0.
+template <int Dim>
+void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& line, int r_faces, FaceRow& out) {
+  const double* swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces);
+  const std::int8_t *below = m.owner_row(line.row[1]) + line.shift[1], *above = m.owner_row(line.row[2]) + line.shift[2];
+  for (int k = 0; k < m.material_count(); ++k) {
+    out.set_present(k, false);
+  }
+  const int stride = m.grid.cell_row_stride(axis), step = axis == 0 ? 1 : 0;
+  const double* next_swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces + stride) + step;
+  const double* last_swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces - stride) - step;
+  int current = -1;
+  double* flux = nullptr;
+  for (int i = 0; i < out.faces(); ++i) {
+    const double t = -swept[i];
+    if (t == 0) {
+      continue;
+    }
+    const int owner = t > 0 ? below[i] : above[i];
+    if (owner < 0) {
+      const bool gives_twice = t > 0 ? last_swept[i] > 0 : next_swept[i] < 0;
+      mixed_donor(m, s, axis, t > 0 ? line.row[1] : line.row[2], i + (t > 0 ? line.shift[1] : line.shift[2]), t, gives_twice, out, i);
+      current = -1;
+      continue;
+    }
+    if (owner != current) {
+      current = owner;
+      if (!out.present(owner)) {
+        out.set_present(owner, true);
+        double* f = out.flux(owner, 0);
+        std::fill(f, f + out.faces(), 0.0);
+      }
+      flux = out.flux(owner, 0);
+    }
+    flux[i] = t;
+  }
+}
+
+/// Pointers of one quantity at the four cells of a line, shifted to face 0.
+struct Four {
+  const double* q[4];
+};
+Four four(const TileStore& s, int field, const Line& l) {
+  return {{s.row(field, l.row[0]) + l.shift[0], s.row(field, l.row[1]) + l.shift[1],
+           s.row(field, l.row[2]) + l.shift[2], s.row(field, l.row[3]) + l.shift[3]}};
+}
+
+/// Donor and its two neighbours (low, high along the axis) of face i: cells 0 1 2 for t > 0, 1 2 3 else.
+struct Three {
+  double low, mid, high;
+};
+inline Three pick(const Four& f, int i, bool positive) {
+  return positive ? Three{f.q[0][i], f.q[1][i], f.q[2][i]} : Three{f.q[1][i], f.q[2][i], f.q[3][i]};
+}
+
+/// Masses from volumes through a row of faces, by the limited density; has_slope marks faces whose
+/// donor may have slopes.
+void mass_fluxes(const TileStore& store, const RowField& volumes, const Line& l, bool limit, int faces, const double* volume_flux, double* mass_flux, double* has_slope) {
+  const Four f = four(store, 0, l), m = four(store, 1, l);
+  const Four v{{volumes.row(l.row[0]) + l.shift[0], volumes.row(l.row[1]) + l.shift[1],
+                volumes.row(l.row[2]) + l.shift[2], volumes.row(l.row[3]) + l.shift[3]}};
+#pragma omp simd
+  for (int i = 0; i < faces; ++i) {
+    const double t = volume_flux[i];
+    const bool positive = t > 0;
+    const Three vf = pick(f, i, positive), vm = pick(m, i, positive), vv = pick(v, i, positive);
+    const bool good = vf.mid > slope_fraction && vf.low > neighbour_fraction && vf.high > neighbour_fraction;
+    const auto density = [](double mass, double fraction, double volume) {
+      return mass / std::max(fraction * volume, 1e-300);
+    };
+    const double rho = density(vm.mid, vf.mid, vv.mid);
+    const double sl = slope(density(vm.low, vf.low, vv.low), rho, density(vm.high, vf.high, vv.high),
+                            0.5 * (vv.low + vv.mid), 0.5 * (vv.mid + vv.high), vv.mid, limit);
+    const double distance = 0.5 * (vv.mid - std::abs(t));
+    const double face = rho + (good ? (positive ? sl : -sl) * distance : 0.0);
+    mass_flux[i] = t == 0 ? 0.0 : t * face;
+    has_slope[i] = good ? 1.0 : 0.0;
+  }
+}
+
+/// Intensive quantity carried with the mass.
+void intensive_fluxes(const TileStore& store, int field, const Line& l, bool limit, int faces, const double* mass_flux, const double* has_slope, double* out) {
+  const Four m = four(store, 1, l), q = four(store, field, l);
+#pragma omp simd
+  for (int i = 0; i < faces; ++i) {
+    const double t = mass_flux[i];
+    const bool positive = t > 0;
+    const Three vm = pick(m, i, positive), vq = pick(q, i, positive);
+    const double sl = slope(vq.low, vq.mid, vq.high, 0.5 * (vm.low + vm.mid) + 1e-300,
+                            0.5 * (vm.mid + vm.high) + 1e-300, vm.mid + 1e-300, limit);
+    const double distance = 0.5 * (vm.mid - std::abs(t));
+    const double face = vq.mid + (has_slope[i] > 0 ? (positive ? sl : -sl) * distance : 0.0);
+    out[i] = t == 0 ? 0.0 : t * face;
+  }
+}
+
+/// Sums a slab contributes to the report, added in slab order.
+struct SlabSums {
+  std::vector<double> mass_out;
+  double internal_out = 0, sliver_mass = 0, sliver_energy = 0;
+  long slivers = 0;
+};
+
+template <int Dim> class CellSweep {
+public:
+  CellSweep(Mesh<Dim>& mesh, const Settings& settings, int axis)
+      : m_(mesh), s_(settings), axis_(axis), faces_(mesh.grid.cells[0] + (axis == 0 ? 1 : 0)),
+        has_slope_(static_cast<std::size_t>(faces_)), unowned_(static_cast<std::size_t>(faces_)) {}
+
+  /// Everything through the faces below the cells of row (j, k), and their total mass flux if the row
+  /// of faces is this thread's own (at a cut between threads both compute it, one writes it).
+  void fluxes(int j, int k, bool own, FaceRow& out) {
+    const int r = m_.grid.cell_row(j, k);
+    const Line line = line_of(m_.grid, axis_, j, k);
+    volume_fluxes(m_, s_, axis_, line, r, out);
+    double* total = own ? m_.mass_flux[static_cast<std::size_t>(axis_)].row(r) : unowned_.data();
+    std::fill(total, total + faces_, 0.0);
+    for (int k_mat = 0; k_mat < m_.material_count(); ++k_mat) {
+      if (!out.present(k_mat) || m_.is_void(k_mat)) {
+        continue;
+      }
+      const TileStore& store = *m_.materials[static_cast<std::size_t>(k_mat)];
+      double* mass = out.flux(k_mat, 1);
+      mass_fluxes(store, m_.volume, line, s_.limit, faces_, out.flux(k_mat, 0), mass, has_slope_.data());
+      for (int q = 2; q < store.conserved(); ++q) {
+        intensive_fluxes(store, q, line, s_.limit, faces_, mass, has_slope_.data(), out.flux(k_mat, q));
+      }
+#pragma omp simd
+      for (int i = 0; i < faces_; ++i) {
+        total[i] += mass[i];
+      }
+    }
+  }
+
+  /// New values of row (j, k) from the fluxes below and above it.
+  void update(int j, int k, FaceRow& low, FaceRow& high, SlabSums& sums) {
+    const Grid& g = m_.grid;
+    const int r = g.cell_row(j, k), n = g.cells[0];
+    const int step = axis_ == 0 ? 1 : 0, stride = g.cell_row_stride(axis_);
+    const double* v = m_.volume.row(r);
+    double* v_next = m_.next_volume.row(r);
+    const RowField& swept = m_.swept[static_cast<std::size_t>(axis_)];
+    const double *s_low = swept.row(r), *s_high = swept.row(r + stride) + step;
+#pragma omp simd
+    for (int i = 0; i < n; ++i) {
+      v_next[i] = v[i] + s_high[i] - s_low[i];
+    }
+    for (int q = 0; q < m_.material_count(); ++q) {
+      TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
+      if (store.has_row(r)) {
+        update_material(store, q, r, low, high, step, sums);
+      }
+    }
+    normalise(r);
+    boundary_sums(j, k, low, high, step, sums);
+  }
+
+private:
+  void update_material(TileStore& store, int q, int r, FaceRow& low, FaceRow& high, int step, SlabSums& sums) {
+    const int n = m_.grid.cells[0];
+    const double *v = m_.volume.row(r), *v_next = m_.next_volume.row(r);
+    const double* f = std::as_const(store).row(0, r);
+    double* f_next = store.next_row(0, r);
+    if (!low.present(q) && !high.present(q)) {
+      for (int field = 0; field < store.conserved(); ++field) {
+        std::memcpy(store.next_row(field, r), std::as_const(store).row(field, r), sizeof(double) * static_cast<std::size_t>(n));
+      }
+#pragma omp simd
+      for (int i = 0; i < n; ++i) {
+        f_next[i] = f[i] == 0 || v_next[i] == v[i] ? f[i] : f[i] * v[i] / v_next[i];
+      }
+      return;
+    }
+    const double *t_low = flux_or_zero(low, q, 0), *t_high = flux_or_zero(high, q, 0) + step;
+#pragma omp simd
+    for (int i = 0; i < n; ++i) {
+      const bool same = t_low[i] == 0 && t_high[i] == 0 && v_next[i] == v[i];
+      const double next = (f[i] * v[i] + t_low[i] - t_high[i]) / v_next[i];
+      f_next[i] = same ? f[i] : next;
+    }
+    if (m_.is_void(q)) {
+#pragma omp simd
+      for (int i = 0; i < n; ++i) {
+        f_next[i] = f_next[i] < sliver_fraction ? 0.0 : f_next[i];
+      }
+      return;
+    }
+    const double* mass = std::as_const(store).row(1, r);
+    double* mass_next = store.next_row(1, r);
+    const double *m_low = flux_or_zero(low, q, 1), *m_high = flux_or_zero(high, q, 1) + step;
+#pragma omp simd
+    for (int i = 0; i < n; ++i) {
+      mass_next[i] = mass[i] + m_low[i] - m_high[i];
+    }
+    for (int field = 2; field < store.conserved(); ++field) {
+      const double* x = std::as_const(store).row(field, r);
+      double* x_next = store.next_row(field, r);
+      const double *x_low = flux_or_zero(low, q, field), *x_high = flux_or_zero(high, q, field) + step;
+#pragma omp simd
+      for (int i = 0; i < n; ++i) {
+        const bool same = m_low[i] == 0 && m_high[i] == 0;
+        const double safe = mass_next[i] > 0 ? mass_next[i] : 1.0;
+        const double next = (mass[i] * x[i] + x_low[i] - x_high[i]) / safe;
+        x_next[i] = same ? x[i] : mass_next[i] > 0 ? next : 0.0;
+      }
+    }
+    drop_slivers(store, r, sums);
+  }
+
+  const double* flux_or_zero(FaceRow& row, int q, int field) {
+    if (row.present(q)) {
+      return row.flux(q, field);
+    }
+    if (zeros_.size() < static_cast<std::size_t>(faces_ + 1)) {
+      zeros_.assign(static_cast<std::size_t>(faces_ + 1), 0.0);
+    }
+    return zeros_.data();
+  }
+
+  void drop_slivers(TileStore& store, int r, SlabSums& sums) {
+    double* f = store.next_row(0, r);
+    double* mass = store.next_row(1, r);
+    for (int i = 0; i < m_.grid.cells[0]; ++i) {
+      if ((f[i] >= sliver_fraction && mass[i] > 0) || (f[i] == 0 && mass[i] == 0)) {
+        continue;
+      }
+      sums.sliver_mass += mass[i];
+      sums.sliver_energy += mass[i] * store.next_row(2, r)[i];
+      ++sums.slivers;
+      for (int field = 0; field < store.conserved(); ++field) {
+        store.next_row(field, r)[i] = 0;
+      }
+    }
+  }
+
+  /// Fractions of every cell sum to one exactly; the largest absorbs round-off.
+  void normalise(int r) {
+    const int n = m_.grid.cells[0];
+    rest_.assign(static_cast<std::size_t>(n), 1.0);
+    most_.assign(static_cast<std::size_t>(n), 0.0);
+    who_.assign(static_cast<std::size_t>(n), -1);
+    for (int q = 0; q < m_.material_count(); ++q) {
+      TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
+      if (!store.has_row(r)) {
+        continue;
+      }
+      const double* f = store.next_row(0, r);
+      for (int i = 0; i < n; ++i) {
+        const auto c = static_cast<std::size_t>(i);
+        rest_[c] -= f[i];
+        who_[c] = f[i] > most_[c] ? q : who_[c];
+        most_[c] = std::max(most_[c], f[i]);
+      }
+    }
+    for (int i = 0; i < n; ++i) {
+      const auto c = static_cast<std::size_t>(i);
+      if (who_[c] >= 0 && rest_[c] != 0) {
+        m_.materials[static_cast<std::size_t>(who_[c])]->next_row(0, r)[i] += rest_[c];
+      }
+    }
+  }
+
+  void boundary_sums(int j, int k, FaceRow& low, FaceRow& high, int step, SlabSums& sums) {
+    const Grid& g = m_.grid;
+    const int index = axis_ == 1 ? j : k, last = g.cells[static_cast<std::size_t>(axis_)] - 1;
+    const auto add = [&](FaceRow& row, int face_begin, int face_end, double sign) {
+      for (int q = 0; q < m_.material_count(); ++q) {
+        if (!row.present(q) || m_.is_void(q)) {
+          continue;
+        }
+        for (int i = face_begin; i < face_end; ++i) {
+          sums.mass_out[static_cast<std::size_t>(q)] += sign * row.flux(q, 1)[i];
+          sums.internal_out += sign * row.flux(q, 2)[i];
+        }
+      }
+    };
+    if (axis_ == 0) {
+      add(low, 0, 1, -1.0);
+      add(high, g.cells[0], g.cells[0] + step, 1.0);
+      return;
+    }
+    if (index == 0) {
+      add(low, 0, faces_, -1.0);
+    }
+    if (index == last) {
+      add(high, 0, faces_, 1.0);
+    }
+  }
+
+  Mesh<Dim>& m_;
+  const Settings& s_;
+  int axis_, faces_;
+  std::vector<double> has_slope_, unowned_, zeros_, rest_, most_;
+  std::vector<int> who_;
+};
+
+} // namespace
+
+template <int Dim>
+void sweep_cells(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int axis, Report& report) {
+  const Grid& g = m.grid;
+  std::vector<SlabSums> sums(static_cast<std::size_t>(g.slabs()));
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    CellSweep<Dim> sweep(m, settings, axis);
+    const int faces = g.cells[0] + (axis == 0 ? 1 : 0);
+    const bool outer = axis == Dim - 1;
+    // Fluxes below the next row along the axis are those above this one: carried, not recomputed.
+    std::vector<FaceRow> carry(static_cast<std::size_t>(outer ? g.rows_per_slab() : 1), FaceRow(m, faces));
+    FaceRow next(m, faces);
+    for (int s = begin; s < end; ++s) {
+      SlabSums& slab = sums[static_cast<std::size_t>(s)];
+      slab.mass_out.assign(m.materials.size(), 0.0);
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        FaceRow& low = carry[static_cast<std::size_t>(outer ? q : 0)];
+        if (axis == 0 || (outer ? s == begin : q == 0)) {
+          sweep.fluxes(j, k, true, low);
+        }
+        if (axis == 0) {
+          sweep.update(j, k, low, low, slab);
+        } else {
+          const bool cut = outer && s + 1 == end && end < g.slabs();
+          sweep.fluxes(axis == 1 ? j + 1 : j, axis == 2 ? k + 1 : k, !cut, next);
+          sweep.update(j, k, low, next, slab);
+          std::swap(low, next);
+        }
+      }
+    }
+  });
+  for (const SlabSums& s : sums) {
+    for (std::size_t q = 0; q < m.materials.size(); ++q) {
+      report.mass_out[q] += s.mass_out[q];
+    }
+    report.internal_out += s.internal_out;
+    report.sliver_mass += s.sliver_mass;
+    report.sliver_energy += s.sliver_energy;
+    report.slivers += s.slivers;
+  }
+  for (TileStore* store : m.materials) {
+    store->swap();
+  }
+  m.volume.swap(m.next_volume);
+}
+
+template void sweep_cells<2>(Mesh<2>&, const Settings&, ThreadPool&, int, Report&);
+template void sweep_cells<3>(Mesh<3>&, const Settings&, ThreadPool&, int, Report&);
+
+} // namespace ballast::remap

@@ -1,0 +1,376 @@
+// One split sweep of momentum on the dual mesh.
+//
+// Node p owns the shares w of the masses of its cells, M_p = sum w m. Inside cell c the mass that crosses
+// from its lower to its upper node along the axis is G_c = w_high F_low + w_low F_high, with F the face
+// mass fluxes: node masses then stay the sum of their shares exactly, whatever the flow. Velocity is
+// carried by the upwind node's limited value in the mass coordinate. Kinetic energy carried as its own
+// scalar, less what the new velocities hold, is the loss; it returns to the cells by corner mass.
+#include "remap/internal.hpp"
+
+#include "remap/limiter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ballast::remap {
+
+namespace {
+
+struct SlabSums {
+  std::array<double, 3> momentum_out = {0, 0, 0};
+  double kinetic_out = 0, loss = 0, returned = 0;
+  long floors = 0;
+};
+
+template <int Dim> class NodeSweep {
+public:
+  NodeSweep(Mesh<Dim>& mesh, const Settings& settings, const RowField& cell_mass, RowField& loss, int axis)
+      : m_(mesh), s_(settings), cell_mass_(cell_mass), loss_(loss), axis_(axis), nodes_(mesh.grid.cells[0] + 1),
+        links_(nodes_ + (axis == 0 ? 1 : 0)) {
+    for (auto* v : {&flux_, &low_mass_, &high_mass_, &between_, &before_, &after_}) {
+      v->assign(static_cast<std::size_t>(links_ + 2), 0.0);
+    }
+  }
+
+  /// Momentum and kinetic energy through the links below the nodes of row (j, k): out[0] mass,
+  /// out[1..Dim] momentum, out[Dim + 1] kinetic energy.
+  void links(int j, int k, std::vector<double>* out) {
+    const Grid& g = m_.grid;
+    const int r = g.node_row(j, k), stride = g.node_row_stride(axis_), shift = axis_ == 0 ? 1 : 0;
+    dual_fluxes(j, k);
+    double* mass = out[0].data();
+    for (int i = 0; i < links_; ++i) {
+      mass[i] = flux_[static_cast<std::size_t>(i)];
+      out[Dim + 1][static_cast<std::size_t>(i)] = 0;
+    }
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const RowField& u = m_.velocity[d];
+      const double *u0 = u.row(r - 2 * stride) - 2 * shift, *u1 = u.row(r - stride) - shift;
+      const double *u2 = u.row(r), *u3 = u.row(r + stride) + shift;
+      double *momentum = out[d + 1].data(), *kinetic = out[Dim + 1].data();
+      const double *t = flux_.data(), *mid = between_.data(), *lo = before_.data(), *hi = after_.data();
+      const double *wl = low_mass_.data(), *wh = high_mass_.data();
+      const bool limit = s_.limit;
+#pragma omp simd
+      for (int i = 0; i < links_; ++i) {
+        const bool positive = t[i] > 0;
+        const double u_donor = positive ? u1[i] : u2[i];
+        const double u_low = positive ? u0[i] : u1[i], u_high = positive ? u2[i] : u3[i];
+        const double d_low = (positive ? lo[i] : mid[i]) + 1e-300, d_high = (positive ? mid[i] : hi[i]) + 1e-300;
+        const double sl = slope(u_low, u_donor, u_high, d_low, d_high, std::max(d_low, d_high), limit);
+        const double distance = (positive ? wl[i] : wh[i]) - 0.5 * std::abs(t[i]);
+        const double value = u_donor + (positive ? sl : -sl) * std::max(distance, 0.0);
+        momentum[i] = t[i] * value;
+        kinetic[i] += 0.5 * t[i] * value * value;
+      }
+    }
+  }
+
+  /// New velocity and mass of node row (j, k) from the links below and above it.
+  void update(int j, int k, const std::vector<double>* low, const std::vector<double>* high, SlabSums& sums) {
+    const Grid& g = m_.grid;
+    const int r = g.node_row(j, k), step = axis_ == 0 ? 1 : 0;
+    const double* mass = m_.node_mass.row(r);
+    double *next_mass = next_mass_row(r), *loss = loss_.row(r);
+    const double *ml = low[0].data(), *mh = high[0].data() + step;
+    const double *kl = low[Dim + 1].data(), *kh = high[Dim + 1].data() + step;
+#pragma omp simd
+    for (int i = 0; i < nodes_; ++i) {
+      next_mass[i] = mass[i] + ml[i] - mh[i];
+      loss[i] = kl[i] - kh[i];
+    }
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double *u = m_.velocity[d].row(r), *pl = low[d + 1].data(), *ph = high[d + 1].data() + step;
+      double* next = m_.next_velocity[d].row(r);
+#pragma omp simd
+      for (int i = 0; i < nodes_; ++i) {
+        const bool same = ml[i] == 0 && mh[i] == 0;
+        const bool holds = next_mass[i] > 1e-9 * (mass[i] + std::abs(ml[i]) + std::abs(mh[i]));
+        const double mean = (mass[i] * u[i] + pl[i] - ph[i]) / (holds ? next_mass[i] : 1.0);
+        next[i] = same || !holds ? u[i] : mean;
+        loss[i] += same ? 0.0 : 0.5 * (mass[i] * u[i] * u[i] - next_mass[i] * next[i] * next[i]);
+      }
+    }
+    boundary_sums(j, k, low, high, step, sums);
+    for (int i = 0; i < nodes_; ++i) {
+      sums.loss += loss[i];
+    }
+  }
+
+  double* next_mass_row(int r) { return next_mass_->row(r); }
+  void set_next_mass(RowField* f) { next_mass_ = f; }
+
+private:
+  /// Dual mass flux, and the cell masses below, between and above the two nodes of every link.
+  void dual_fluxes(int j, int k) {
+    const Grid& g = m_.grid;
+    for (auto* v : {&flux_, &low_mass_, &high_mass_, &between_, &before_, &after_}) {
+      std::fill(v->begin(), v->end(), 0.0);
+    }
+    // A link along axis 0 lies in one column of cells and 2^(Dim-1) rows; along the others it touches two
+    // columns, and rows only to the sides of the remaining axis.
+    const int index[3] = {0, j, k};
+    for (int side = 0; side < (1 << (Dim - 1)); ++side) {
+      int cell[3] = {0, j, k};
+      double share = 1;
+      int bit = 0;
+      bool inside = true;
+      int column = 0;
+      for (int axis = 0; axis < Dim; ++axis) {
+        if (axis == axis_) {
+          continue;
+        }
+        const bool lower = (side >> bit++ & 1) != 0; // the cell below the node along this axis
+        if (axis == 0) {
+          column = lower ? -1 : 0;
+          continue;
+        }
+        cell[axis] = index[axis] - (lower ? 1 : 0);
+        inside = inside && cell[axis] >= 0 && cell[axis] < g.cells[static_cast<std::size_t>(axis)];
+        share *= inside ? share_of(axis, cell[axis], lower) : 0.0;
+      }
+      if (inside) {
+        add_cells(cell, column, share);
+      }
+    }
+  }
+
+  /// Share of a cell's mass that goes to its upper (`high`) or lower node along an axis.
+  double share_of(int axis, int cell, bool high) const {
+    const double low = m_.low_share[static_cast<std::size_t>(axis)][static_cast<std::size_t>(cell + m_.grid.ghost[static_cast<std::size_t>(axis)])];
+    return high ? 1 - low : low;
+  }
+
+  void add_cells(const int (&cell)[3], int column, double share) {
+    const Grid& g = m_.grid;
+    const auto a = static_cast<std::size_t>(axis_);
+    const RowField& face = m_.mass_flux[a];
+    if (axis_ == 0) {
+      const int r = g.cell_row(cell[1], cell[2]);
+      const double *f = face.row(r), *mass = cell_mass_.row(r);
+      const int n = g.cells[0];
+      // Link i joins node i-1 and node i through cell i-1; links 0 and n+1 are the boundary faces.
+      flux_[0] += share * f[0];
+      flux_[static_cast<std::size_t>(n + 1)] += share * f[n];
+      for (int i = 1; i <= n; ++i) {
+        add(static_cast<std::size_t>(i), share, low_share0(i - 1), f[i - 1], f[i], i > 1 ? mass[i - 2] : mass[0],
+            mass[i - 1], i < n ? mass[i] : mass[n - 1]);
+      }
+      return;
+    }
+    // The link below node row `cell[axis]`: through the cell under it.
+    const int n = g.cells[a], at = cell[axis_], here = at - 1;
+    int c[3] = {cell[0], cell[1], cell[2]};
+    const auto row = [&](int q) {
+      c[axis_] = q;
+      return g.cell_row(c[1], c[2]);
+    };
+    const int first = column < 0 ? 1 : 0, last = column < 0 ? g.cells[0] : g.cells[0] - 1;
+    if (at == 0 || at == n + 1) {
+      const double* f = face.row(row(at == 0 ? 0 : n));
+      for (int i = first; i <= last; ++i) {
+        flux_[static_cast<std::size_t>(i)] += share * share_of(0, i + column, column < 0) * f[i + column];
+      }
+      return;
+    }
+    const double low = share_of(axis_, here, false);
+    const double *f_low = face.row(row(here)), *f_high = face.row(row(here + 1));
+    const double *m0 = cell_mass_.row(row(std::max(here - 1, 0))), *m1 = cell_mass_.row(row(here)),
+                 *m2 = cell_mass_.row(row(std::min(here + 1, n - 1)));
+    for (int i = first; i <= last; ++i) {
+      const int q = i + column;
+      add(static_cast<std::size_t>(i), share * share_of(0, q, column < 0), low, f_low[q], f_high[q], m0[q], m1[q], m2[q]);
+    }
+  }
+
+  double low_share0(int i) const { return share_of(0, i, false); }
+
+  void add(std::size_t link, double share, double low, double f_low, double f_high, double m0, double m1, double m2) {
+    flux_[link] += share * ((1 - low) * f_low + low * f_high);
+    low_mass_[link] += share * low * m1;
+    high_mass_[link] += share * (1 - low) * m1;
+    before_[link] += share * m0;
+    between_[link] += share * m1;
+    after_[link] += share * m2;
+  }
+
+  void boundary_sums(int j, int k, const std::vector<double>* low, const std::vector<double>* high, int step, SlabSums& sums) {
+    const Grid& g = m_.grid;
+    const auto add_link = [&](const std::vector<double>* l, std::size_t i, double sign) {
+      for (std::size_t d = 0; d < Dim; ++d) {
+        sums.momentum_out[d] += sign * l[d + 1][i];
+      }
+      sums.kinetic_out += sign * l[Dim + 1][i];
+    };
+    if (axis_ == 0) {
+      add_link(low, 0, -1);
+      add_link(high, static_cast<std::size_t>(nodes_ - 1 + step), 1);
+      return;
+    }
+    const int index = axis_ == 1 ? j : k, n = g.cells[static_cast<std::size_t>(axis_)];
+    for (int i = 0; i < nodes_; ++i) {
+      if (index == 0) {
+        add_link(low, static_cast<std::size_t>(i), -1);
+      }
+      if (index == n) {
+        add_link(high, static_cast<std::size_t>(i), 1);
+      }
+    }
+  }
+
+  Mesh<Dim>& m_;
+  const Settings& s_;
+  const RowField& cell_mass_;
+  RowField& loss_;
+  RowField* next_mass_ = nullptr;
+  int axis_, nodes_, links_;
+  std::vector<double> flux_, low_mass_, high_mass_, between_, before_, after_;
+};
+
+/// Mass of all materials a cell (before the sweep: the coordinate in which velocities vary).
+template <int Dim> RowField total_mass(const Mesh<Dim>& m, ThreadPool& pool, bool next) {
+  const Grid& g = m.grid;
+  RowField out = RowField::of_cells(g);
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        const int r = g.cell_row(j, k);
+        double* sum = out.row(r);
+        for (int mat = 0; mat < m.material_count(); ++mat) {
+          TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
+          if (m.is_void(mat) || !store.has_row(r)) {
+            continue;
+          }
+          const double* mass = next ? store.next_row(1, r) : std::as_const(store).row(1, r);
+#pragma omp simd
+          for (int i = 0; i < g.cells[0]; ++i) {
+            sum[i] += mass[i];
+          }
+        }
+      }
+    }
+  });
+  return out;
+}
+
+constexpr double largest_fall = 0.5; ///< of a cell's internal energy that a negative return may take
+
+/// Gives every node's loss to its cells by corner mass, every cell's to its materials by mass.
+template <int Dim>
+void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, const RowField& loss, const RowField& node_mass, std::vector<SlabSums>& sums) {
+  const Grid& g = m.grid;
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    std::vector<double> per_mass(static_cast<std::size_t>(g.cells[0]));
+    for (int s = begin; s < end; ++s) {
+      SlabSums& slab = sums[static_cast<std::size_t>(s)];
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        std::fill(per_mass.begin(), per_mass.end(), 0.0);
+        for (int corner = 0; corner < (1 << Dim); ++corner) {
+          const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2 & 1;
+          const int nr = g.node_row(j + dj, k + dk);
+          const double *l = loss.row(nr) + di, *mass = node_mass.row(nr) + di;
+          double share = dj ? 1 - m.low_share[1][static_cast<std::size_t>(j + g.ghost[1])] : m.low_share[1][static_cast<std::size_t>(j + g.ghost[1])];
+          if constexpr (Dim == 3) {
+            const double low = m.low_share[2][static_cast<std::size_t>(k + g.ghost[2])];
+            share *= dk ? 1 - low : low;
+          }
+          const double* low0 = m.low_share[0].data() + g.ghost[0];
+#pragma omp simd
+          for (int i = 0; i < g.cells[0]; ++i) {
+            const double w = share * (di ? 1 - low0[i] : low0[i]);
+            per_mass[static_cast<std::size_t>(i)] += mass[i] > 0 ? w * l[i] / mass[i] : 0.0;
+          }
+        }
+        const int r = g.cell_row(j, k);
+        for (int mat = 0; mat < m.material_count(); ++mat) {
+          TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
+          if (m.is_void(mat) || !store.has_row(r)) {
+            continue;
+          }
+          double* e = store.row(2, r);
+          const double* mass = std::as_const(store).row(1, r);
+          for (int i = 0; i < g.cells[0]; ++i) {
+            if (mass[i] == 0) {
+              continue;
+            }
+            double gain = per_mass[static_cast<std::size_t>(i)];
+            if (gain < -largest_fall * e[i]) {
+              gain = std::min(0.0, -largest_fall * e[i]);
+              ++slab.floors;
+            }
+            e[i] += gain;
+            slab.returned += mass[i] * gain;
+          }
+        }
+      }
+    }
+  });
+}
+
+} // namespace
+
+template <int Dim>
+void sweep_nodes(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int axis, Report& report) {
+  const Grid& g = m.grid;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    m.exchange_velocity(m.velocity[d], static_cast<int>(d));
+  }
+  // The cells have been swept and swapped: their masses before the sweep are in the next rows.
+  const RowField cell_mass = total_mass(m, pool, true);
+  RowField loss = RowField::of_nodes(g), next_mass = RowField::of_nodes(g);
+  const int slabs = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
+  std::vector<SlabSums> sums(static_cast<std::size_t>(slabs));
+  parallel_ranges(pool, slabs, [&](int begin, int end, int) {
+    NodeSweep<Dim> sweep(m, settings, cell_mass, loss, axis);
+    sweep.set_next_mass(&next_mass);
+    using Links = std::array<std::vector<double>, Dim + 2>;
+    Links empty;
+    for (auto& l : empty) {
+      l.assign(static_cast<std::size_t>(g.cells[0] + 2), 0.0);
+    }
+    const bool outer = axis == Dim - 1;
+    std::vector<Links> carry(static_cast<std::size_t>(outer ? rows : 1), empty);
+    Links next = empty;
+    for (int s = begin; s < end; ++s) {
+      SlabSums& slab = sums[static_cast<std::size_t>(s)];
+      for (int q = 0; q < rows; ++q) {
+        const int j = Dim == 3 ? q : s, k = Dim == 3 ? s : 0;
+        Links& low = carry[static_cast<std::size_t>(outer ? q : 0)];
+        if (axis == 0 || (outer ? s == begin : q == 0)) {
+          sweep.links(j, k, low.data());
+        }
+        if (axis == 0) {
+          sweep.update(j, k, low.data(), low.data(), slab);
+        } else {
+          sweep.links(axis == 1 ? j + 1 : j, axis == 2 ? k + 1 : k, next.data());
+          sweep.update(j, k, low.data(), next.data(), slab);
+          std::swap(low, next);
+        }
+      }
+    }
+  });
+  for (std::size_t d = 0; d < Dim; ++d) {
+    m.velocity[d].swap(m.next_velocity[d]);
+  }
+  m.node_mass.swap(next_mass);
+  if (settings.return_kinetic) {
+    return_kinetic(m, pool, loss, m.node_mass, sums);
+  }
+  for (const SlabSums& s : sums) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      report.momentum_out[d] += s.momentum_out[d];
+    }
+    report.kinetic_out += s.kinetic_out;
+    report.kinetic_loss += s.loss;
+    report.kinetic_returned += s.returned;
+    report.energy_floors += s.floors;
+  }
+}
+
+template void sweep_nodes<2>(Mesh<2>&, const Settings&, ThreadPool&, int, Report&);
+template void sweep_nodes<3>(Mesh<3>&, const Settings&, ThreadPool&, int, Report&);
+
+} // namespace ballast::remap
