@@ -1,8 +1,8 @@
-// Corner forces of one row of cells: F_p = -(p - p_ref) S_p + s.S_p + viscosity + hourglass, all at the
+// Corner forces of one row of cells: F_p = -sigma.S_p + hourglass, sigma = -(p - p_ref) I + s + viscosity, all at the
 // half step x + dt/2 u with S = dV/dx exact (numerics 1). The same function serves the force pass and the
 // work pass, so the work is done by bitwise the same forces.
 //
-// In RZ: F_r = s_rr A_r + s_rz A_z + s_tt H (S_r = A_r + H), F_z = s_rz A_r + s_zz A_z.
+// In RZ: F_r = -(s_rr A_r + s_rz A_z + s_tt H) with S_r = A_r + H, F_z = -(s_rz A_r + s_zz A_z).
 // Viscosity acts along the normals n_d of the cell's mid surfaces: sigma = -sum q_d n_d n_d^T.
 // Hourglass: Flanagan-Belytschko, viscous, on the modes that a linear velocity field does not excite.
 #pragma once

@@ -85,10 +85,10 @@ half_step(const ForceRows<2>& in, const ForceCoefficients& c, int i, HalfStepQua
 #pragma GCC unroll 4
   for (int p = 0; p < 4; ++p) {
     const double ax = Axisymmetric ? h.sx[p] - h.hoop[p] : h.sx[p];
-    h.fx[p] = xx * ax + xy * h.sy[p] - drag * hx * gamma[p];
-    h.fy[p] = xy * ax + yy * h.sy[p] - drag * hy * gamma[p];
+    h.fx[p] = -(xx * ax + xy * h.sy[p]) - drag * hx * gamma[p];
+    h.fy[p] = -(xy * ax + yy * h.sy[p]) - drag * hy * gamma[p];
     if constexpr (Axisymmetric) {
-      h.fx[p] += tt * h.hoop[p];
+      h.fx[p] -= tt * h.hoop[p];
     }
   }
 }

@@ -101,9 +101,9 @@ half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex
   }
 #pragma GCC unroll 8
   for (int p = 0; p < 8; ++p) {
-    h.fx[p] = xx * h.sx[p] + xy * h.sy[p] + xz * h.sz[p];
-    h.fy[p] = xy * h.sx[p] + yy * h.sy[p] + yz * h.sz[p];
-    h.fz[p] = xz * h.sx[p] + yz * h.sy[p] + zz * h.sz[p];
+    h.fx[p] = -(xx * h.sx[p] + xy * h.sy[p] + xz * h.sz[p]);
+    h.fy[p] = -(xy * h.sx[p] + yy * h.sy[p] + yz * h.sz[p]);
+    h.fz[p] = -(xz * h.sx[p] + yz * h.sy[p] + zz * h.sz[p]);
   }
   static constexpr double mode[4][8] = {{1, 1, -1, -1, -1, -1, 1, 1}, {1, -1, -1, 1, -1, 1, 1, -1},
                                         {1, -1, 1, -1, 1, -1, 1, -1}, {-1, 1, -1, 1, 1, -1, 1, -1}};

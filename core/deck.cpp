@@ -12,7 +12,8 @@ namespace ballast {
 namespace {
 
 DeckPlace place_of(const toml::source_region& region) {
-  DeckPlace place{static_cast<int>(region.begin.line), static_cast<int>(region.begin.column), 1, {}};
+  DeckPlace place{
+      static_cast<int>(region.begin.line), static_cast<int>(region.begin.column), 1, {}};
   if (region.end.line == region.begin.line && region.end.column > region.begin.column) {
     place.length = static_cast<int>(region.end.column - region.begin.column);
   }
@@ -178,7 +179,8 @@ void Deck::apply(const std::string& setting) {
         fail({place,
               path,
               fmt::format("{} has no entry \"{}\"", at->key, part),
-              fmt::format("0 to {}, or the name of an entry", static_cast<int>(at->items.size()) - 1)});
+              fmt::format("0 to {}, or the name of an entry",
+                          static_cast<int>(at->items.size()) - 1)});
         return;
       }
     } else if (at->is_table()) {

@@ -1,8 +1,9 @@
-// Deck: a TOML file as a tree of nodes that remember where they stand, and the list of everything that
-// is wrong with it. Nothing stops at the first error: callers read on and end with throw_if_errors().
+// Deck: a TOML file as a tree of nodes that remember where they stand, and the list of everything
+// that is wrong with it. Nothing stops at the first error: callers read on and end with
+// throw_if_errors().
 //
-// Reading against a key table (core/deck_keys.hpp) turns quantities into SI numbers and adds defaults in
-// place, so that after a clean read the tree *is* the resolved deck.
+// Reading against a key table (core/deck_keys.hpp) turns quantities into SI numbers and adds
+// defaults in place, so that after a clean read the tree *is* the resolved deck.
 #pragma once
 
 #include "core/error.hpp"
@@ -29,7 +30,7 @@ struct DeckNode {
   DeckPlace place;     ///< of the value
   DeckPlace key_place; ///< of its key, where it has one
   std::string key;     ///< full path: "body[1].velocity"
-  double number = 0; ///< of number and integer
+  double number = 0;   ///< of number and integer
   bool flag = false;
   std::string text;
   std::vector<DeckNode> items;                          ///< of array
@@ -57,12 +58,11 @@ struct DeckError {
 
 class Deck {
 public:
-  /// Reads a file; `overrides` are "key.path=value" texts of --set. A file that cannot be opened throws
-  /// Error; everything else that is wrong becomes an entry of errors().
+  /// Reads a file; `overrides` are "key.path=value" texts of --set. A file that cannot be opened
+  /// throws Error; everything else that is wrong becomes an entry of errors().
   static Deck load(const std::string& path, const std::vector<std::string>& overrides = {});
-  static Deck parse(std::string text,
-                    std::string name,
-                    const std::vector<std::string>& overrides = {});
+  static Deck
+  parse(std::string text, std::string name, const std::vector<std::string>& overrides = {});
 
   DeckNode& root() { return root_; }
   const DeckNode& root() const { return root_; }
@@ -79,7 +79,8 @@ public:
   void fail(DeckError error);
   const std::vector<DeckError>& errors() const { return errors_; }
   bool clean() const { return errors_.empty(); }
-  /// All errors in deck order: file:line:col: key: message, the source line, a caret, what is allowed.
+  /// All errors in deck order: file:line:col: key: message, the source line, a caret, what is
+  /// allowed.
   std::string error_report() const;
   /// Throws Error(error_report()) if anything is wrong.
   void throw_if_errors() const;

@@ -9,11 +9,13 @@ namespace {
 
 std::string range_text(const KeyRange& range, Dimension dimension) {
   const std::string unit(si_unit(dimension));
-  const auto with_unit = [&](double v) { return unit.empty() ? fmt::format("{:g}", v)
-                                                             : fmt::format("{:g} {}", v, unit); };
+  const auto with_unit = [&](double v) {
+    return unit.empty() ? fmt::format("{:g}", v) : fmt::format("{:g} {}", v, unit);
+  };
   const bool lo = std::isfinite(range.lo), hi = std::isfinite(range.hi);
   if (lo && hi) {
-    return fmt::format("{} {} to {}", range.lo_open ? "above" : "from", with_unit(range.lo), with_unit(range.hi));
+    return fmt::format(
+        "{} {} to {}", range.lo_open ? "above" : "from", with_unit(range.lo), with_unit(range.hi));
   }
   if (lo) {
     return fmt::format("{} {}", range.lo_open ? "above" : "at least", with_unit(range.lo));
@@ -65,7 +67,8 @@ bool check_choice(Deck& deck, DeckNode& node, const std::vector<std::string>& ch
 bool check_integer(Deck& deck, DeckNode& node, const KeySpec& spec) {
   const std::string span = range_text(spec.range, Dimension::none);
   const std::string allowed = "a whole number" + (span.empty() ? "" : ", " + span);
-  const bool whole = node.is_number() && std::abs(node.number) < 2e9 && std::floor(node.number) == node.number;
+  const bool whole =
+      node.is_number() && std::abs(node.number) < 2e9 && std::floor(node.number) == node.number;
   if (!check_kind(deck, node, whole, allowed)) {
     return false;
   }
@@ -86,7 +89,8 @@ bool check_texts(Deck& deck, DeckNode& node, const KeySpec& spec) {
   bool good = true;
   for (DeckNode& item : node.items) {
     good = (closed ? check_choice(deck, item, spec.choices)
-                   : check_kind(deck, item, item.is_text(), allowed)) && good;
+                   : check_kind(deck, item, item.is_text(), allowed)) &&
+           good;
   }
   return good;
 }
@@ -221,7 +225,8 @@ std::string one_of(const std::vector<std::string>& names) {
 }
 
 const KeySpec* SectionSpec::find(std::string_view name) const {
-  const auto at = std::find_if(keys.begin(), keys.end(), [&](const KeySpec& k) { return k.name == name; });
+  const auto at =
+      std::find_if(keys.begin(), keys.end(), [&](const KeySpec& k) { return k.name == name; });
   return at == keys.end() ? nullptr : &*at;
 }
 
@@ -259,7 +264,8 @@ bool read_quantities(Deck& deck,
                      std::size_t min_count,
                      std::size_t max_count) {
   const std::string count = min_count == max_count ? fmt::format("{} ", min_count) : std::string{};
-  const std::string allowed = fmt::format("a list of {}values, each: {}", count, wanted(dimension, range));
+  const std::string allowed =
+      fmt::format("a list of {}values, each: {}", count, wanted(dimension, range));
   if (!check_kind(deck, node, node.is_array(), allowed)) {
     return false;
   }
@@ -305,8 +311,12 @@ DeckNode* Section::good(std::string_view key) const {
   return found != nullptr && !found->bad ? found : nullptr;
 }
 
-bool Section::has(std::string_view key) const { return good(key) != nullptr; }
-DeckNode* Section::node(std::string_view key) const { return good(key); }
+bool Section::has(std::string_view key) const {
+  return good(key) != nullptr;
+}
+DeckNode* Section::node(std::string_view key) const {
+  return good(key);
+}
 
 double Section::number(std::string_view key, double absent) const {
   const DeckNode* n = good(key);

@@ -33,8 +33,12 @@ struct KeyRange {
   double hi = std::numeric_limits<double>::infinity();
   bool lo_open = false;
 };
-inline KeyRange positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
-inline KeyRange not_negative() { return {.lo = 0}; }
+inline KeyRange positive() {
+  return {0, std::numeric_limits<double>::infinity(), true};
+}
+inline KeyRange not_negative() {
+  return {.lo = 0};
+}
 
 struct KeySpec {
   std::string name;
@@ -81,7 +85,8 @@ private:
 /// Checks `node` against `spec`, converts quantities to SI and adds defaults in place.
 Section read_section(Deck& deck, DeckNode& node, const SectionSpec& spec);
 
-/// One quantity or a list of them, converted to SI in place; false (and an error) if that cannot be.
+/// One quantity or a list of them, converted to SI in place; false (and an error) if that cannot
+/// be.
 bool read_quantity(Deck& deck, DeckNode& node, Dimension dimension, const KeyRange& range = {});
 bool read_quantities(Deck& deck,
                      DeckNode& node,

@@ -80,7 +80,9 @@ std::string describe(const DeckNode& node) {
   return "a table";
 }
 
-void Deck::fail(DeckError error) { errors_.push_back(std::move(error)); }
+void Deck::fail(DeckError error) {
+  errors_.push_back(std::move(error));
+}
 
 void Deck::fail(DeckNode& node, std::string message, std::string allowed) {
   node.bad = true;
@@ -104,9 +106,11 @@ std::string Deck::show(const DeckError& error) const {
     const std::string source = line_of(text_, at.line);
     const auto indent = static_cast<std::size_t>(std::max(0, at.column - 1));
     const std::size_t room = source.size() > indent ? source.size() - indent : 1;
-    const std::size_t length = std::clamp<std::size_t>(static_cast<std::size_t>(at.length), 1, room);
+    const std::size_t length =
+        std::clamp<std::size_t>(static_cast<std::size_t>(at.length), 1, room);
     out = fmt::format("{}:{}:{}: {}{}\n", name_, at.line, at.column, key, error.message);
-    out += fmt::format("  {}\n  {}{}\n", source, std::string(indent, ' '), std::string(length, '^'));
+    out +=
+        fmt::format("  {}\n  {}{}\n", source, std::string(indent, ' '), std::string(length, '^'));
   }
   if (!error.allowed.empty()) {
     out += fmt::format("  allowed: {}\n", error.allowed);
@@ -129,7 +133,8 @@ std::string Deck::error_report() const {
   for (const DeckError* error : ordered) {
     out += show(*error);
   }
-  return out + fmt::format("{} error{} in {}\n", errors_.size(), errors_.size() == 1 ? "" : "s", name_);
+  return out +
+         fmt::format("{} error{} in {}\n", errors_.size(), errors_.size() == 1 ? "" : "s", name_);
 }
 
 void Deck::throw_if_errors() const {

@@ -61,9 +61,8 @@ std::string value_text(const DeckNode& node) {
 
 bool is_table_list(const DeckNode& node) {
   return node.is_array() && !node.items.empty() &&
-         std::all_of(node.items.begin(), node.items.end(), [](const DeckNode& n) {
-           return n.is_table();
-         });
+         std::all_of(
+             node.items.begin(), node.items.end(), [](const DeckNode& n) { return n.is_table(); });
 }
 
 void write_fields(const DeckNode& table, std::string& out) {

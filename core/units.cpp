@@ -11,7 +11,7 @@ namespace {
 
 struct Unit {
   std::string_view name;
-  double factor;     ///< SI = factor * number + offset
+  double factor; ///< SI = factor * number + offset
   double offset = 0;
 };
 
@@ -25,9 +25,14 @@ const DimensionUnits& units_of(Dimension dimension) {
   static const std::array<DimensionUnits, 13> table = {{
       {"number", {}},
       {"length",
-       {{"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"um", 1e-6}, {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}}},
-      {"time",
-       {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}, {"min", 60}, {"h", 3600}}},
+       {{"m", 1},
+        {"mm", 1e-3},
+        {"cm", 1e-2},
+        {"um", 1e-6},
+        {"km", 1e3},
+        {"in", 0.0254},
+        {"ft", 0.3048}}},
+      {"time", {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}, {"min", 60}, {"h", 3600}}},
       {"velocity",
        {{"m/s", 1}, {"km/s", 1e3}, {"mm/us", 1e3}, {"cm/us", 1e4}, {"mm/ms", 1}, {"ft/s", 0.3048}}},
       {"mass", {{"kg", 1}, {"g", 1e-3}, {"mg", 1e-6}, {"gr", 64.79891e-6}, {"lb", 0.45359237}}},
@@ -76,7 +81,9 @@ std::string where_known(std::string_view unit) {
 
 } // namespace
 
-std::string_view name_of(Dimension dimension) { return units_of(dimension).name; }
+std::string_view name_of(Dimension dimension) {
+  return units_of(dimension).name;
+}
 
 std::string_view si_unit(Dimension dimension) {
   const auto& units = units_of(dimension).units;
@@ -99,7 +106,8 @@ Quantity parse_quantity(std::string_view text, Dimension dimension) {
   if (status != std::errc{} || digits.starts_with("inf") || digits.starts_with("nan")) {
     return {0, fmt::format("\"{}\" does not start with a number", text)};
   }
-  const std::string_view unit = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
+  const std::string_view unit =
+      trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
   if (unit.empty()) {
     return {number, {}};
   }

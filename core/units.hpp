@@ -1,5 +1,5 @@
-// Units of deck quantities: "823 m/s", "0.5 mm", "34.5 MPa". Inside the code everything is SI; only this
-// file converts. A bare number is SI already.
+// Units of deck quantities: "823 m/s", "0.5 mm", "34.5 MPa". Inside the code everything is SI; only
+// this file converts. A bare number is SI already.
 #pragma once
 
 #include <string>

@@ -21,45 +21,51 @@ Material finished(Material m) {
 // Spall pressures of the metals are switches of the right magnitude, not data (materials.md 2).
 
 Material lead() {
-  return {.name = "lead",
-          .eos = gruneisen(11350, 2051, 1.46, 2.77),
-          .strength = LinearHardening{.shear_modulus = 5.52e9, .yield = 34.5e6},
-          .density = 11350,
-          .spall_pressure = -0.4e9,
-          .specific_heat = 124,
-          .melt_temperature = 600.6,
-          .source = "density, G, perfect plasticity 34.5 MPa: Raftenberg 2004 [S]; c0, s, gamma0: LASL "
-                    "Marsh compendium [K1]; heat capacity: Uintah SCG_Lead [R-2nd]; melting at 1 atm [K1]; "
-                    "spall -0.4 GPa [K3]",
-          .confidence = "S, K1, K3"};
+  return {
+      .name = "lead",
+      .eos = gruneisen(11350, 2051, 1.46, 2.77),
+      .strength = LinearHardening{.shear_modulus = 5.52e9, .yield = 34.5e6},
+      .density = 11350,
+      .spall_pressure = -0.4e9,
+      .specific_heat = 124,
+      .melt_temperature = 600.6,
+      .source =
+          "density, G, perfect plasticity 34.5 MPa: Raftenberg 2004 [S]; c0, s, gamma0: LASL "
+          "Marsh compendium [K1]; heat capacity: Uintah SCG_Lead [R-2nd]; melting at 1 atm [K1]; "
+          "spall -0.4 GPa [K3]",
+      .confidence = "S, K1, K3"};
 }
 
 Material lead_steinberg() {
-  return {.name = "lead_steinberg",
-          .eos = gruneisen(11340, 2006, 1.429, 2.74),
-          .strength = LinearHardening{.shear_modulus = 8.6e9, .yield = 8.0e6},
-          .density = 11340,
-          .spall_pressure = -0.4e9,
-          .specific_heat = 124,
-          .melt_temperature = 760,
-          .source = "Steinberg 1996 via Uintah SCG_Lead.xml [R-2nd]: c0, S1, gamma0, G0, Y0, cp, Tm. Only "
-                    "the linear part of its cubic Us-up fit and the initial yield of its hardening "
-                    "law are used; spall -0.4 GPa [K3]",
-          .confidence = "R-2nd, K3"};
+  return {
+      .name = "lead_steinberg",
+      .eos = gruneisen(11340, 2006, 1.429, 2.74),
+      .strength = LinearHardening{.shear_modulus = 8.6e9, .yield = 8.0e6},
+      .density = 11340,
+      .spall_pressure = -0.4e9,
+      .specific_heat = 124,
+      .melt_temperature = 760,
+      .source =
+          "Steinberg 1996 via Uintah SCG_Lead.xml [R-2nd]: c0, S1, gamma0, G0, Y0, cp, Tm. Only "
+          "the linear part of its cubic Us-up fit and the initial yield of its hardening "
+          "law are used; spall -0.4 GPa [K3]",
+      .confidence = "R-2nd, K3"};
 }
 
 Material lead_antimony() {
-  return {.name = "lead_antimony",
-          .eos = gruneisen(11000, 2051, 1.46, 2.77),
-          .strength = LinearHardening{.shear_modulus = 5.52e9, .yield = 34.5e6},
-          .density = 11000,
-          .spall_pressure = -0.4e9,
-          .specific_heat = 124,
-          .melt_temperature = 525,
-          .source = "density of Pb-3 % Sb [K2]; c0, s, gamma0 of lead, LASL Marsh [K1]; G and 34.5 MPa: the "
-                    "paper's lead [S], inside the 30-60 MPa band of Pb-Sb [K2]; melting (eutectic) "
-                    "[K1]; spall -0.4 GPa [K3]",
-          .confidence = "S, K2, K3"};
+  return {
+      .name = "lead_antimony",
+      .eos = gruneisen(11000, 2051, 1.46, 2.77),
+      .strength = LinearHardening{.shear_modulus = 5.52e9, .yield = 34.5e6},
+      .density = 11000,
+      .spall_pressure = -0.4e9,
+      .specific_heat = 124,
+      .melt_temperature = 525,
+      .source =
+          "density of Pb-3 % Sb [K2]; c0, s, gamma0 of lead, LASL Marsh [K1]; G and 34.5 MPa: the "
+          "paper's lead [S], inside the 30-60 MPa band of Pb-Sb [K2]; melting (eutectic) "
+          "[K1]; spall -0.4 GPa [K3]",
+      .confidence = "S, K2, K3"};
 }
 
 Material copper_ofhc() {
@@ -79,7 +85,8 @@ Material copper_ofhc() {
           .spall_pressure = -1.3e9,
           .specific_heat = 383,
           .melt_temperature = 1356,
-          .source = "Uintah copper cards, Johnson-Cook 1983 [R:U2, R:M3]; spall -1.2 to -1.5 GPa [K2]",
+          .source =
+              "Uintah copper cards, Johnson-Cook 1983 [R:U2, R:M3]; spall -1.2 to -1.5 GPa [K2]",
           .confidence = "R, K2"};
 }
 
@@ -100,21 +107,24 @@ Material gilding_metal() {
           .spall_pressure = -1.3e9,
           .specific_heat = 376,
           .melt_temperature = 1318,
-          .source = "C22000, Cu 90 Zn 10: density, melting, heat capacity [K1]; G, c0, s, gamma0 between "
-                    "copper and brass [K3]; no strength data found: copper OFHC Johnson-Cook (soft end) "
-                    "[K3], the hard end is brass 206 MPa, 505 MPa, 0.42; spall [K3]",
+          .source =
+              "C22000, Cu 90 Zn 10: density, melting, heat capacity [K1]; G, c0, s, gamma0 between "
+              "copper and brass [K3]; no strength data found: copper OFHC Johnson-Cook (soft end) "
+              "[K3], the hard end is brass 206 MPa, 505 MPa, 0.42; spall [K3]",
           .confidence = "K1, K3"};
 }
 
 Material water() {
-  return {.name = "water",
-          .eos = gruneisen(998, 1480, 1.92, 0.28),
-          .density = 998,
-          .spall_pressure = -0.1e6,
-          .specific_heat = 4186,
-          .source = "density, c0 1480 m/s, s 1.92 (to 1.98) [K1]; gamma0 0.28,; cut-off -0.1 MPa: AWG card "
-                    "[R:M4 2nd]",
-          .confidence = "K1, R-2nd"};
+  return {
+      .name = "water",
+      .eos = gruneisen(998, 1480, 1.92, 0.28),
+      .density = 998,
+      .spall_pressure = -0.1e6,
+      .specific_heat = 4186,
+      .source =
+          "density, c0 1480 m/s, s 1.92 (to 1.98) [K1]; gamma0 0.28,; cut-off -0.1 MPa: AWG card "
+          "[R:M4 2nd]",
+      .confidence = "K1, R-2nd"};
 }
 
 Material air() {
@@ -122,35 +132,41 @@ Material air() {
           .eos = IdealGas{1.4},
           .density = 1.2,
           .specific_heat = 719,
-          .source = "gamma 1.4, 1.2 kg/m3, cv 719 J/kg/K: AWG card [R:M4 2nd] and common knowledge [K1]",
+          .source =
+              "gamma 1.4, 1.2 kg/m3, cv 719 J/kg/K: AWG card [R:M4 2nd] and common knowledge [K1]",
           .confidence = "K1"};
 }
 
 Material gelatin_10() {
-  return {.name = "gelatin_10",
-          .eos = gruneisen(1030, 1520, 1.8, 0.17),
-          .strength = LinearHardening{.shear_modulus = 0.28e6, .yield = 0.22e6, .hardening = 1e3},
-          .density = 1030,
-          .spall_pressure = -14e3,
-          .specific_heat = 3700,
-          .source = "density, yield 0.22 MPa, hardening 1 kPa, cut-off 14 kPa: Wen 2013 via Zochowski 2019 "
-                    "[R:M1 2nd]; G 0.28 MPa reads its 0.85 MPa as Young's modulus [K2]; c0, s, gamma0, cp: "
-                    "an MPM code's card [R:G5 2nd]. Rate-independent: real gelatin stiffens 100-fold at "
-                    "1000 /s",
-          .confidence = "R-2nd, K2"};
+  return {
+      .name = "gelatin_10",
+      .eos = gruneisen(1030, 1520, 1.8, 0.17),
+      .strength = LinearHardening{.shear_modulus = 0.28e6, .yield = 0.22e6, .hardening = 1e3},
+      .density = 1030,
+      .spall_pressure = -14e3,
+      .specific_heat = 3700,
+      .source =
+          "density, yield 0.22 MPa, hardening 1 kPa, cut-off 14 kPa: Wen 2013 via Zochowski 2019 "
+          "[R:M1 2nd]; G 0.28 MPa reads its 0.85 MPa as Young's modulus [K2]; c0, s, gamma0, cp: "
+          "an MPM code's card [R:G5 2nd]. Rate-independent: real gelatin stiffens 100-fold at "
+          "1000 /s",
+      .confidence = "R-2nd, K2"};
 }
 
 Material muscle() {
-  return {.name = "muscle",
-          .eos = gruneisen(1058, 1562, 1.8, 0.3),
-          .strength = LinearHardening{.shear_modulus = 0.3e6, .yield = 0.2e6},
-          .density = 1058,
-          .spall_pressure = -0.1e6,
-          .specific_heat = 3600,
-          .source = "density and sound speed across the fibres: MDPI Bioengineering 2025 [R:T1]; s, gamma0 of "
-                    "water-like tissue [K2]; G 0.3 MPa, yield 0.2 MPa: order of gelatin at ballistic rates, "
-                    "where muscle carries 10-100 times its quasi-static stress [K3]; cut-off of water [K3]",
-          .confidence = "R, K2, K3"};
+  return {
+      .name = "muscle",
+      .eos = gruneisen(1058, 1562, 1.8, 0.3),
+      .strength = LinearHardening{.shear_modulus = 0.3e6, .yield = 0.2e6},
+      .density = 1058,
+      .spall_pressure = -0.1e6,
+      .specific_heat = 3600,
+      .source =
+          "density and sound speed across the fibres: MDPI Bioengineering 2025 [R:T1]; s, gamma0 "
+          "of "
+          "water-like tissue [K2]; G 0.3 MPa, yield 0.2 MPa: order of gelatin at ballistic rates, "
+          "where muscle carries 10-100 times its quasi-static stress [K3]; cut-off of water [K3]",
+      .confidence = "R, K2, K3"};
 }
 
 const std::vector<Material>& library() {
@@ -170,7 +186,8 @@ const std::vector<Material>& library() {
 
 const Material* find_material(std::string_view name) {
   const auto& all = library();
-  const auto at = std::find_if(all.begin(), all.end(), [&](const Material& m) { return m.name == name; });
+  const auto at =
+      std::find_if(all.begin(), all.end(), [&](const Material& m) { return m.name == name; });
   return at == all.end() ? nullptr : &*at;
 }
 
@@ -184,13 +201,14 @@ std::vector<std::string> material_names() {
 
 std::string describe(const Material& m) {
   const double c = std::sqrt(sound_speed_squared(m.eos, m.density, m.specific_energy));
-  std::string out = fmt::format("{}\n  density     {:g} kg/m3, sound speed {:.0f} m/s\n  eos         {}\n  "
-                                "strength    {}\n",
-                                m.name,
-                                m.density,
-                                c,
-                                describe(m.eos),
-                                describe(m.strength));
+  std::string out =
+      fmt::format("{}\n  density     {:g} kg/m3, sound speed {:.0f} m/s\n  eos         {}\n  "
+                  "strength    {}\n",
+                  m.name,
+                  m.density,
+                  c,
+                  describe(m.eos),
+                  describe(m.strength));
   out += std::isfinite(m.spall_pressure) ? fmt::format("  spall       {:g} Pa\n", m.spall_pressure)
                                          : std::string("  spall       never\n");
   if (m.specific_heat > 0) {

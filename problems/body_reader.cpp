@@ -16,7 +16,10 @@ struct Context {
   std::size_t dim() const { return static_cast<std::size_t>(dimensions(scene.geometry)); }
 };
 
-void refuse(Context c, const Section& in, std::initializer_list<const char*> keys, const char* why) {
+void refuse(Context c,
+            const Section& in,
+            std::initializer_list<const char*> keys,
+            const char* why) {
   for (const char* key : keys) {
     if (in.has(key)) {
       c.deck.fail_key(*in.node(key), why);
@@ -26,7 +29,8 @@ void refuse(Context c, const Section& in, std::initializer_list<const char*> key
 
 bool require(Context c, const Section& in, const char* key) {
   if (in.self().find(key) == nullptr) {
-    c.deck.fail({in.self().place, in.self().key + "." + key, "missing", scene_keys::body().find(key)->doc});
+    c.deck.fail(
+        {in.self().place, in.self().key + "." + key, "missing", scene_keys::body().find(key)->doc});
     return false;
   }
   return in.has(key);
@@ -43,7 +47,10 @@ void set_state(Context c, const Section& in, Body& body) {
   body.pressure = in.number("pressure", c.scene.ambient_pressure);
   if (in.has("specific_energy")) {
     if (in.has("pressure")) {
-      c.deck.fail_key(*in.node("specific_energy"), "contradicts pressure", "one of pressure and specific_energy");
+      c.deck.fail_key(*in.node("specific_energy"),
+                      "contradicts pressure",
+                      "one of pressure and specific_energy");
+      return;
     }
     body.specific_energy = in.number("specific_energy");
     body.pressure = pressure(m.eos, body.density, body.specific_energy);
@@ -52,15 +59,17 @@ void set_state(Context c, const Section& in, Body& body) {
   }
   const double c2 = sound_speed_squared(m.eos, body.density, body.specific_energy);
   if (!(c2 > 0)) {
-    c.deck.fail({in.self().place,
-                 in.self().key,
-                 fmt::format("{} has no sound speed at {:g} kg/m3, {:g} Pa", m.name, body.density, body.pressure),
-                 "a density and pressure its equation of state can hold"});
+    c.deck.fail(
+        {in.self().place,
+         in.self().key,
+         fmt::format(
+             "{} has no sound speed at {:g} kg/m3, {:g} Pa", m.name, body.density, body.pressure),
+         "a density and pressure its equation of state can hold"});
   }
 }
 
 /// A body outside the mesh is a mistake in one of the two.
-void check_place(Context c, const Section& in, const Body& body) {
+bool check_place(Context c, const Section& in, const Body& body) {
   const Bounds b = bounds(body.shape);
   const std::vector<std::string> names = axis_names(c.scene.geometry);
   for (std::size_t k = 0; k < c.dim(); ++k) {
@@ -74,12 +83,13 @@ void check_place(Context c, const Section& in, const Body& body) {
                                b.lo[k],
                                b.hi[k]),
                    fmt::format("{} from {:g} to {:g} m", names[k], lines.front(), lines.back())});
-      return;
+      return false;
     }
   }
+  return true;
 }
 
-void add(Context c, const Section& in, Body body) {
+bool add(Context c, const Section& in, Body body) {
   for (const Body& other : c.scene.bodies) {
     if (other.name == body.name) {
       DeckNode* name = in.node("name");
@@ -87,11 +97,12 @@ void add(Context c, const Section& in, Body body) {
                    in.self().key + ".name",
                    fmt::format("there is another body called \"{}\"", body.name),
                    "a name of its own"});
-      return;
+      return false;
     }
   }
-  check_place(c, in, body);
+  const bool placed = check_place(c, in, body);
   c.scene.bodies.push_back(std::move(body));
+  return placed;
 }
 
 void read_plain(Context c, const Section& in) {
@@ -134,7 +145,8 @@ std::optional<Point> part_axis(Context c, const Section& in) {
     return axis;
   }
   if (c.scene.geometry != Geometry::three_d) {
-    c.deck.fail(*in.node("yaw"), "only a 3d scene can hold a yawed bullet", "0, or geometry = \"3d\"");
+    c.deck.fail(
+        *in.node("yaw"), "only a 3d scene can hold a yawed bullet", "0, or geometry = \"3d\"");
     return std::nullopt;
   }
   Point turned{};
@@ -179,8 +191,8 @@ void read_part(Context c, const Section& in) {
   }
   for (const PartBody& piece : part.bodies) {
     DeckNode* chosen = in.node(piece.name);
-    const auto material =
-        c.book.index(c.deck, in.text(piece.name, piece.material), chosen != nullptr ? *chosen : in.self());
+    const auto material = c.book.index(
+        c.deck, in.text(piece.name, piece.material), chosen != nullptr ? *chosen : in.self());
     if (!material) {
       continue;
     }
@@ -195,7 +207,9 @@ void read_part(Context c, const Section& in) {
     }
     c.scene.materials = c.book.used();
     set_state(c, in, body);
-    add(c, in, std::move(body));
+    if (!add(c, in, std::move(body))) {
+      return; // one mistake, one error
+    }
   }
 }
 

@@ -1,5 +1,5 @@
-// What the program's words do. Each returns the exit status; Error and NumericalFailure pass through and
-// main turns them into a message and a status.
+// What the program's words do. Each returns the exit status; Error and NumericalFailure pass
+// through and main turns them into a message and a status.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// The program `ballast`: reads the command line, calls a command, turns what it throws into an exit status.
+// The program `ballast`: reads the command line, calls a command, turns what it throws into an exit
+// status.
 #include "core/error.hpp"
 #include "post/report.hpp"
 #include "problems/commands.hpp"
@@ -10,10 +11,13 @@ namespace {
 
 using ballast::ExitStatus;
 
-int status(ExitStatus s) { return static_cast<int>(s); }
+int status(ExitStatus s) {
+  return static_cast<int>(s);
+}
 
 /// Adds a subcommand whose function's result becomes the exit status.
-CLI::App* word(CLI::App& app, const char* name, const char* help, int& result, std::function<int()> run) {
+CLI::App*
+word(CLI::App& app, const char* name, const char* help, int& result, std::function<int()> run) {
   CLI::App* sub = app.add_subcommand(name, help);
   sub->callback([&result, run = std::move(run)] { result = run(); });
   return sub;
@@ -29,17 +33,26 @@ int dispatch(int argc, char** argv) {
   CLI::App* sub = word(app, "run", "run a deck", result, [&] { return ballast::run_command(run); });
   sub->add_option("deck", run.deck, "the deck, DECK.toml")->required();
   sub->add_option("--out", run.out, "run directory");
-  sub->add_option("--set", run.settings, "key.path=value, instead of what the deck says; may be repeated")->expected(1)->take_all();
+  sub->add_option(
+         "--set", run.settings, "key.path=value, instead of what the deck says; may be repeated")
+      ->expected(1)
+      ->take_all();
   sub->add_option("--threads", run.threads, "threads; default all")->check(CLI::Range(1, 4096));
   sub->add_option("--restart", run.restart, "checkpoint to go on from");
 
   ballast::CheckOptions check;
-  sub = word(app, "check", "validate a deck and say what it costs", result, [&] { return ballast::check_command(check); });
+  sub = word(app, "check", "validate a deck and say what it costs", result, [&] {
+    return ballast::check_command(check);
+  });
   sub->add_option("deck", check.deck, "the deck, DECK.toml")->required();
-  sub->add_option("--set", check.settings, "key.path=value; may be repeated")->expected(1)->take_all();
+  sub->add_option("--set", check.settings, "key.path=value; may be repeated")
+      ->expected(1)
+      ->take_all();
 
   ballast::VerifyOptions verify;
-  sub = word(app, "verify", "run verification cases", result, [&] { return ballast::verify_command(verify); });
+  sub = word(app, "verify", "run verification cases", result, [&] {
+    return ballast::verify_command(verify);
+  });
   sub->add_option("name", verify.names, "cases; default all");
   sub->add_flag("--hard", verify.hard, "the slow and hard cases too");
   sub->add_flag("--list", verify.list, "only name the cases");
@@ -54,8 +67,10 @@ int dispatch(int argc, char** argv) {
   sub->add_option("--vary", vary);
 
   std::string dir;
-  sub = word(app, "report", "pictures and a page of a run directory", result, [&] { ballast::post::report(dir, std::cout);
-    return status(ExitStatus::finished); });
+  sub = word(app, "report", "pictures and a page of a run directory", result, [&] {
+    ballast::post::report(dir, std::cout);
+    return status(ExitStatus::finished);
+  });
   sub->add_option("dir", dir, "run directory")->required();
 
   std::string material;

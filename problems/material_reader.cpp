@@ -17,9 +17,10 @@ struct ModelKeys {
   std::vector<std::string> keys;
 };
 const std::vector<ModelKeys>& eos_keys() {
-  static const std::vector<ModelKeys> table = {{"ideal_gas", {"gamma"}},
-                                               {"stiffened_gas", {"gamma", "p_infinity"}},
-                                               {"mie_gruneisen", {"c0", "s", "gamma0", "gamma_constant"}}};
+  static const std::vector<ModelKeys> table = {
+      {"ideal_gas", {"gamma"}},
+      {"stiffened_gas", {"gamma", "p_infinity"}},
+      {"mie_gruneisen", {"c0", "s", "gamma0", "gamma_constant"}}};
   return table;
 }
 const std::vector<ModelKeys>& strength_keys() {
@@ -30,7 +31,10 @@ const std::vector<ModelKeys>& strength_keys() {
   return table;
 }
 
-void refuse_foreign(Deck& deck, const Section& in, const std::vector<ModelKeys>& table, std::size_t model) {
+void refuse_foreign(Deck& deck,
+                    const Section& in,
+                    const std::vector<ModelKeys>& table,
+                    std::size_t model) {
   const std::vector<std::string>& own = table[model].keys;
   for (const ModelKeys& other : table) {
     for (const std::string& key : other.keys) {
@@ -44,18 +48,26 @@ void refuse_foreign(Deck& deck, const Section& in, const std::vector<ModelKeys>&
 }
 
 /// A key a new model cannot do without.
-bool have(Deck& deck, const Section& in, std::initializer_list<const char*> keys, const std::string& model) {
+bool have(Deck& deck,
+          const Section& in,
+          std::initializer_list<const char*> keys,
+          const std::string& model) {
   bool all = true;
   for (const char* key : keys) {
     if (in.self().find(key) == nullptr) {
-      deck.fail({in.self().place, in.self().key + "." + key, fmt::format("missing; {} needs it", model), {}});
+      deck.fail({in.self().place,
+                 in.self().key + "." + key,
+                 fmt::format("missing; {} needs it", model),
+                 {}});
       all = false;
     }
   }
   return all;
 }
 
-void set(double& value, const Section& in, const char* key) { value = in.number(key, value); }
+void set(double& value, const Section& in, const char* key) {
+  value = in.number(key, value);
+}
 
 void read_eos(Deck& deck, const Section& in, Material& m, bool fresh) {
   std::size_t model = m.eos.index();
@@ -140,14 +152,18 @@ void read_strength(Deck& deck, const Section& in, Material& m, double temperatur
 
 } // namespace
 
-MaterialBook::MaterialBook(Deck& deck, DeckNode* table, double ambient_pressure, double ambient_temperature)
+MaterialBook::MaterialBook(Deck& deck,
+                           DeckNode* table,
+                           double ambient_pressure,
+                           double ambient_temperature)
     : pressure_(ambient_pressure), temperature_(ambient_temperature) {
   if (table == nullptr) {
     return;
   }
   for (auto& [name, node] : table->fields) {
     if (!node.is_table()) {
-      deck.fail(node, fmt::format("{} is not wanted here", describe(node)), "a table: [materials.NAME]");
+      deck.fail(
+          node, fmt::format("{} is not wanted here", describe(node)), "a table: [materials.NAME]");
       broken_.push_back(name);
     } else {
       define(deck, name, node);
@@ -184,12 +200,15 @@ void MaterialBook::define(Deck& deck, const std::string& name, DeckNode& node) {
   set(m.spall_pressure, in, "spall_pressure");
   if (in.has("melt_temperature") && m.melt_temperature <= temperature_) {
     deck.fail(*in.node("melt_temperature"),
-              fmt::format("{:g} K is not above the ambient temperature {:g} K", m.melt_temperature, temperature_));
+              fmt::format("{:g} K is not above the ambient temperature {:g} K",
+                          m.melt_temperature,
+                          temperature_));
   }
   if (deck.errors().size() == errors_before) {
     read_eos(deck, in, m, known == nullptr);
     read_strength(deck, in, m, temperature_);
   }
+  m.confidence = m.confidence.empty() ? "deck" : m.confidence;
   m.source = in.text("source", m.source.empty() ? "deck" : m.source + "; changed by the deck");
   if (deck.errors().size() > errors_before) {
     broken_.push_back(name);

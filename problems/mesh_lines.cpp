@@ -12,7 +12,8 @@ struct Stretch {
   bool uniform() const { return std::abs(ratio() - 1) < 1e-9; }
   /// integral dx / size(x) with the size linear in x, which is what a geometric row is.
   double cells() const {
-    const double wanted = uniform() ? (b - a) / size_a : (b - a) * std::log(ratio()) / (size_b - size_a);
+    const double wanted =
+        uniform() ? (b - a) / size_a : (b - a) * std::log(ratio()) / (size_b - size_a);
     return std::max(1.0, std::ceil(wanted - 1e-6));
   }
   /// Place of node i of n.

@@ -5,8 +5,8 @@
 
 namespace ballast {
 
-/// Stretches from - to[0] - to[1] ... `size` holds the cell size at each `to`, or at `from` and each `to`;
-/// with one entry a `to`, the first stretch is uniform.
+/// Stretches from - to[0] - to[1] ... `size` holds the cell size at each `to`, or at `from` and
+/// each `to`; with one entry a `to`, the first stretch is uniform.
 struct AxisPlan {
   double from = 0;
   std::vector<double> to;

@@ -34,7 +34,9 @@ std::optional<std::vector<double>> lengths(Context c, DeckNode& node, const KeyR
 }
 
 /// The node of entry i of a value that may be a list or a single one.
-DeckNode& entry(DeckNode& node, std::size_t i) { return node.is_array() ? node.items[i] : node; }
+DeckNode& entry(DeckNode& node, std::size_t i) {
+  return node.is_array() ? node.items[i] : node;
+}
 
 bool check_rising(Context c, double from, DeckNode& to, const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -68,7 +70,9 @@ bool check_sizes(Context c, const AxisPlan& plan, DeckNode& size) {
     }
   }
   if (planned_cells(plan) > most_cells) {
-    c.deck.fail(size, fmt::format("makes {:.3g} cells along one axis", planned_cells(plan)), "2e8 cells at most");
+    c.deck.fail(size,
+                fmt::format("makes {:.3g} cells along one axis", planned_cells(plan)),
+                "2e8 cells at most");
     return false;
   }
   if (steepest_ratio(plan) > steepest_allowed) {
@@ -94,7 +98,8 @@ std::vector<double> read_lines(Context c, const Section& in) {
   DeckNode* size = in.node("size");
   DeckNode& self = in.self();
   if (to == nullptr) {
-    c.deck.fail({self.place, self.key + ".to", "missing", "the high end, or a rising list of places"});
+    c.deck.fail(
+        {self.place, self.key + ".to", "missing", "the high end, or a rising list of places"});
   }
   if ((size == nullptr) == (self.find("cells") == nullptr)) {
     c.deck.fail({size == nullptr ? self.place : size->key_place,
@@ -121,7 +126,9 @@ std::vector<double> read_lines(Context c, const Section& in) {
     return {};
   }
   if (in.integer("cells") > most_cells || plan.to.size() > 1) {
-    c.deck.fail(*in.node("cells"), "needs one place in `to`", "2e8 cells at most, equal between `from` and `to`");
+    c.deck.fail(*in.node("cells"),
+                "needs one place in `to`",
+                "2e8 cells at most, equal between `from` and `to`");
     return {};
   }
   return equal_lines(plan.from, plan.to[0], in.integer("cells"));
@@ -164,7 +171,10 @@ void read_inflow(Context c, const Section& in, Boundary& side) {
   side.specific_energy = energy(m.eos, side.density, side.pressure);
 }
 
-void refuse_keys(Context c, const Section& in, std::initializer_list<const char*> keys, const std::string& kind) {
+void refuse_keys(Context c,
+                 const Section& in,
+                 std::initializer_list<const char*> keys,
+                 const std::string& kind) {
   for (const char* key : keys) {
     if (in.has(key)) {
       c.deck.fail_key(*in.node(key), fmt::format("a {} boundary does not take it", kind));
@@ -175,7 +185,9 @@ void refuse_keys(Context c, const Section& in, std::initializer_list<const char*
 Boundary read_boundary(Context c, DeckNode& node) {
   Boundary side;
   if (node.is_text() && node.text == "absorbing") {
-    c.deck.fail(node, "absorbing boundaries are not available yet", "symmetry, free, wall, inflow or outflow");
+    c.deck.fail(node,
+                "absorbing boundaries are not available yet",
+                "symmetry, free, wall, inflow or outflow");
     return side;
   }
   if (node.is_text()) { // a bare word is a table of that type
@@ -186,7 +198,9 @@ Boundary read_boundary(Context c, DeckNode& node) {
     node.fields.emplace_back("type", std::move(type));
   }
   if (!node.is_table()) {
-    c.deck.fail(node, fmt::format("{} is not a boundary", describe(node)), "symmetry, free, wall, outflow or a table");
+    c.deck.fail(node,
+                fmt::format("{} is not a boundary", describe(node)),
+                "symmetry, free, wall, outflow or a table");
     return side;
   }
   const Section in = read_section(c.deck, node, scene_keys::boundary());
@@ -252,30 +266,36 @@ void read_mesh(Deck& deck,
   const std::vector<std::string> names = axis_names(scene.geometry);
   for (auto& [name, node] : mesh.fields) {
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      deck.fail_key(node,
-                    fmt::format("no axis of a {} scene", name_of(scene.geometry)),
-                    one_of(names));
+      deck.fail_key(
+          node, fmt::format("no axis of a {} scene", name_of(scene.geometry)), one_of(names));
     }
   }
   double cells = 1;
   for (std::size_t axis = 0; axis < names.size(); ++axis) {
     DeckNode* node = mesh.find(names[axis]);
     if (node == nullptr) {
-      deck.fail({mesh.place, mesh.key + "." + names[axis], "missing", "a table { from = ..., to = ..., size = ... }"});
+      deck.fail({mesh.place,
+                 mesh.key + "." + names[axis],
+                 "missing",
+                 "a table { from = ..., to = ..., size = ... }"});
       continue;
     }
     if (!node->is_table()) {
-      deck.fail(*node, fmt::format("{} is not wanted here", describe(*node)), "a table { from, to, size }");
+      deck.fail(*node,
+                fmt::format("{} is not wanted here", describe(*node)),
+                "a table { from, to, size }");
       continue;
     }
     const Section in = read_section(deck, *node, scene_keys::mesh_axis());
     scene.mesh_lines[axis] = read_lines(c, in);
-    const bool symmetric = std::find(symmetry.begin(), symmetry.end(), names[axis]) != symmetry.end();
+    const bool symmetric =
+        std::find(symmetry.begin(), symmetry.end(), names[axis]) != symmetry.end();
     read_sides(c, in, axis, symmetric);
     cells *= static_cast<double>(std::max<std::size_t>(1, scene.mesh_lines[axis].size()) - 1);
   }
   if (cells > most_cells) {
-    deck.fail({mesh.place, mesh.key, fmt::format("makes {:.3g} cells", cells), "2e8 cells at most"});
+    deck.fail(
+        {mesh.place, mesh.key, fmt::format("makes {:.3g} cells", cells), "2e8 cells at most"});
   }
 }
 

@@ -21,7 +21,9 @@ KeySpec point(std::string name, std::size_t dim, std::string doc, bool required)
 
 /// One table a dimension: points have as many coordinates as the scene.
 using PerDimension = std::array<SectionSpec, 2>;
-const SectionSpec& pick(const PerDimension& specs, std::size_t dim) { return specs[dim - 2]; }
+const SectionSpec& pick(const PerDimension& specs, std::size_t dim) {
+  return specs[dim - 2];
+}
 
 const std::vector<std::string> directions = {"+x", "-x", "+y", "-y", "+z", "-z"};
 
@@ -30,17 +32,20 @@ const std::vector<std::string> directions = {"+x", "-x", "+y", "-y", "+z", "-z"}
 const SectionSpec& top() {
   static const SectionSpec spec = {
       "Top level",
-      "What the scene is. A deck is TOML; a quantity is text with a unit (`\"823 m/s\"`) or a bare number in "
+      "What the scene is. A deck is TOML; a quantity is text with a unit (`\"823 m/s\"`) or a bare "
+      "number in "
       "SI. Unknown and duplicate keys are errors.",
       {{.name = "title", .kind = text, .doc = "one line for tables and pictures", .required = true},
        {.name = "geometry",
         .kind = choice,
-        .doc = "planar (axes x, y), axisymmetric (axes r, z, turned about r = 0) or 3d (axes x, y, z)",
+        .doc =
+            "planar (axes x, y), axisymmetric (axes r, z, turned about r = 0) or 3d (axes x, y, z)",
         .required = true,
         .choices = {"planar", "axisymmetric", "3d"}},
        {.name = "symmetry",
         .kind = choices,
-        .doc = "axes whose low side is a plane of symmetry; the same as `lower = \"symmetry\"` there",
+        .doc =
+            "axes whose low side is a plane of symmetry; the same as `lower = \"symmetry\"` there",
         .choices = {"x", "y", "z"}},
        {.name = "end_time",
         .kind = quantity,
@@ -48,15 +53,21 @@ const SectionSpec& top() {
         .dimension = Dimension::time,
         .range = positive(),
         .required = true},
-       {.name = "ambient", .kind = table, .doc = "pressure and temperature of everything at the start"},
+       {.name = "ambient",
+        .kind = table,
+        .doc = "pressure and temperature of everything at the start"},
        {.name = "background",
         .kind = text,
         .doc = "material where no body is, or `void`",
         .fallback = "void"},
        {.name = "body",
         .kind = tables,
-        .doc = "pieces of the initial state; **later bodies replace earlier ones where they overlap**"},
-       {.name = "mesh", .kind = table, .doc = "one table an axis: `mesh.r`, `mesh.z`", .required = true},
+        .doc = "pieces of the initial state; **later bodies replace earlier ones where they "
+               "overlap**"},
+       {.name = "mesh",
+        .kind = table,
+        .doc = "one table an axis: `mesh.r`, `mesh.z`",
+        .required = true},
        {.name = "motion", .kind = table, .doc = "how the mesh moves"},
        {.name = "materials", .kind = table, .doc = "overrides of named materials, and new ones"},
        {.name = "numerics", .kind = table, .doc = "methods and their coefficients"},
@@ -88,21 +99,27 @@ const SectionSpec& ambient() {
 const SectionSpec& body() {
   static const SectionSpec spec = {
       "[[body]]",
-      "Either a part described here (`name`, `material`, `shape`) or a library part (`use`, placed by `tip` and "
+      "Either a part described here (`name`, `material`, `shape`) or a library part (`use`, placed "
+      "by `tip` and "
       "`direction`). Later bodies replace earlier ones where they overlap.",
       {{.name = "name",
         .kind = text,
-        .doc = "unique; required unless `use` is given. A library part with a name calls its bodies "
-               "`name.core`, ..."},
+        .doc =
+            "unique; required unless `use` is given. A library part with a name calls its bodies "
+            "`name.core`, ..."},
        {.name = "use",
         .kind = choice,
-        .doc = "a library part; `bullet/m80` makes the bodies `core` and `jacket`, 9.525 g together",
+        .doc =
+            "a library part; `bullet/m80` makes the bodies `core` and `jacket`, 9.525 g together",
         .choices = {"bullet/m80"}},
-       {.name = "material", .kind = text, .doc = "a named material (`ballast materials`), one of [materials], or `void`: a hole"},
+       {.name = "material",
+        .kind = text,
+        .doc = "a named material (`ballast materials`), one of [materials], or `void`: a hole"},
        {.name = "shape", .kind = special, .doc = "one of the shapes below"},
        {.name = "velocity",
         .kind = special,
-        .doc = "one velocity an axis: `[\"0 m/s\", \"823 m/s\"]`; for a library part one speed along its axis. "
+        .doc = "one velocity an axis: `[\"0 m/s\", \"823 m/s\"]`; for a library part one speed "
+               "along its axis. "
                "Default: at rest"},
        {.name = "density",
         .kind = quantity,
@@ -129,36 +146,43 @@ const SectionSpec& body() {
         .choices = directions},
        {.name = "yaw",
         .kind = quantity,
-        .doc = "library part, 3d only: turn about its tip, from its direction towards the next axis (x to y, y "
+        .doc = "library part, 3d only: turn about its tip, from its direction towards the next "
+               "axis (x to y, y "
                "to z, z to x)",
         .dimension = Dimension::angle,
         .range = {-3.1416, 3.1416}},
        {.name = "core", .kind = text, .doc = "library part: core material instead of its own"},
-       {.name = "jacket", .kind = text, .doc = "library part: jacket material instead of its own"}}};
+       {.name = "jacket",
+        .kind = text,
+        .doc = "library part: jacket material instead of its own"}}};
   return spec;
 }
 
 const SectionSpec& shape() {
   static const SectionSpec spec = {
       "Shapes",
-      "A shape is a table with exactly one of these keys: `shape = { sphere = { centre = [...], radius = \"3 mm\" } "
+      "A shape is a table with exactly one of these keys: `shape = { sphere = { centre = [...], "
+      "radius = \"3 mm\" } "
       "}`. Shapes nest: `shape = { difference = [ { box = {...} }, { sphere = {...} } ] }`.",
       {{.name = "box", .kind = table, .doc = "sides along the axes"},
-       {.name = "sphere", .kind = table, .doc = "planar: a disc; axisymmetric: off the axis a ring"},
+       {.name = "sphere",
+        .kind = table,
+        .doc = "planar: a disc; axisymmetric: off the axis a ring"},
        {.name = "cylinder", .kind = table, .doc = "solid, round; axisymmetric: on the axis"},
        {.name = "revolved", .kind = table, .doc = "an outline turned about an axis"},
        {.name = "half_space", .kind = table, .doc = "everything behind a plane"},
        {.name = "union", .kind = special, .doc = "list of shapes: any of them"},
        {.name = "intersection", .kind = special, .doc = "list of shapes: all of them"},
-       {.name = "difference", .kind = special, .doc = "list of shapes: the first without the others"}}};
+       {.name = "difference",
+        .kind = special,
+        .doc = "list of shapes: the first without the others"}}};
   return spec;
 }
 
 namespace {
 SectionSpec box_spec(std::size_t dim) {
-  return {"box",
-          "",
-          {point("from", dim, "low corner", true), point("to", dim, "high corner", true)}};
+  return {
+      "box", "", {point("from", dim, "low corner", true), point("to", dim, "high corner", true)}};
 }
 SectionSpec sphere_spec(std::size_t dim) {
   return {"sphere",
@@ -184,17 +208,21 @@ SectionSpec cylinder_spec(std::size_t dim) {
             .required = true}}};
 }
 SectionSpec revolved_spec(std::size_t dim) {
-  return {"revolved",
-          "Outline points (z, r), z never decreasing, straight in between; closed to the axis at both ends.",
-          {{.name = "file",
-            .kind = text,
-            .doc = "CSV beside the deck; header `z_mm,r_mm` (or another unit of length), `#` comments"},
-           {.name = "profile", .kind = special, .doc = "or the points here: `[[\"0 mm\", \"3 mm\"], ...]`"},
-           point("origin", dim, "where the outline's z = 0 lies; default the origin", false),
-           {.name = "direction",
-            .kind = choice,
-            .doc = "where the outline's z points; default +z (planar: +x)",
-            .choices = directions}}};
+  return {
+      "revolved",
+      "Outline points (z, r), z never decreasing, straight in between; closed to the axis at both "
+      "ends.",
+      {{.name = "file",
+        .kind = text,
+        .doc = "CSV beside the deck; header `z_mm,r_mm` (or another unit of length), `#` comments"},
+       {.name = "profile",
+        .kind = special,
+        .doc = "or the points here: `[[\"0 mm\", \"3 mm\"], ...]`"},
+       point("origin", dim, "where the outline's z = 0 lies; default the origin", false),
+       {.name = "direction",
+        .kind = choice,
+        .doc = "where the outline's z points; default +z (planar: +x)",
+        .choices = directions}}};
 }
 SectionSpec half_space_spec(std::size_t dim) {
   return {"half_space",
@@ -233,8 +261,10 @@ const SectionSpec& half_space(std::size_t dim) {
 const SectionSpec& mesh_axis() {
   static const SectionSpec spec = {
       "[mesh.AXIS]",
-      "Lines along one axis: `r = { from = \"0 mm\", to = [\"8 mm\", \"60 mm\"], size = [\"0.25 mm\", \"2 mm\"] }` is "
-      "uniform to 8 mm and then grows geometrically to 2 mm. Ends are met exactly; sizes shrink a little "
+      "Lines along one axis: `r = { from = \"0 mm\", to = [\"8 mm\", \"60 mm\"], size = [\"0.25 "
+      "mm\", \"2 mm\"] }` is "
+      "uniform to 8 mm and then grows geometrically to 2 mm. Ends are met exactly; sizes shrink a "
+      "little "
       "where they do not divide a stretch.",
       {{.name = "from",
         .kind = quantity,
@@ -246,13 +276,16 @@ const SectionSpec& mesh_axis() {
         .doc = "high end, or a rising list of places where `size` is given; required"},
        {.name = "size",
         .kind = special,
-        .doc = "cell size at each `to` (the first stretch is uniform), or at `from` and each `to`; required unless "
+        .doc = "cell size at each `to` (the first stretch is uniform), or at `from` and each `to`; "
+               "required unless "
                "`cells` is given"},
        {.name = "cells",
         .kind = integer,
         .doc = "instead of `size`: that many equal cells",
         .range = {.lo = 1}},
-       {.name = "lower", .kind = special, .doc = "boundary at the low end; default `free`, at r = 0 `symmetry`"},
+       {.name = "lower",
+        .kind = special,
+        .doc = "boundary at the low end; default `free`, at r = 0 `symmetry`"},
        {.name = "upper", .kind = special, .doc = "boundary at the high end; default `free`"}}};
   return spec;
 }
@@ -260,7 +293,8 @@ const SectionSpec& mesh_axis() {
 const SectionSpec& boundary() {
   static const SectionSpec spec = {
       "Boundaries (`lower`, `upper`)",
-      "A text (`symmetry`, `free`, `wall`, `outflow`) or a table with these keys. `absorbing` is not available yet.",
+      "A text (`symmetry`, `free`, `wall`, `outflow`) or a table with these keys. `absorbing` is "
+      "not available yet.",
       {{.name = "type",
         .kind = choice,
         .doc = "`free` carries the ambient pressure; `wall` is rigid and frictionless",
@@ -288,7 +322,8 @@ const SectionSpec& motion() {
       "The mesh always takes a Lagrangian step; this says what happens after it.",
       {{.name = "policy",
         .kind = choice,
-        .doc = "lagrangian: never remapped; eulerian: back to the initial mesh; relax and follow are not available "
+        .doc = "lagrangian: never remapped; eulerian: back to the initial mesh; relax and follow "
+               "are not available "
                "yet",
         .fallback = "eulerian",
         .choices = {"lagrangian", "eulerian", "relax", "follow"}},
@@ -303,7 +338,8 @@ const SectionSpec& motion() {
 const SectionSpec& material() {
   static const SectionSpec spec = {
       "[materials.NAME]",
-      "Overrides of the named material NAME (docs/materials.md), or a new one if NAME is new: then `base`, or `eos` "
+      "Overrides of the named material NAME (docs/materials.md), or a new one if NAME is new: then "
+      "`base`, or `eos` "
       "and `density`, must be given.",
       {{.name = "base", .kind = text, .doc = "start from this named material"},
        {.name = "density",
@@ -394,7 +430,11 @@ const SectionSpec& numerics() {
   static const SectionSpec spec = {
       "[numerics]",
       "Methods and coefficients; docs/numerics.md says what they do.",
-      {{.name = "cfl", .kind = quantity, .doc = "share of the stable step", .range = {0, 1, true}, .fallback = "0.5"},
+      {{.name = "cfl",
+        .kind = quantity,
+        .doc = "share of the stable step",
+        .range = {0, 1, true},
+        .fallback = "0.5"},
        {.name = "closure",
         .kind = choice,
         .doc = "how mixed cells share a volume change",
@@ -427,7 +467,8 @@ const SectionSpec& numerics() {
         .choices = {"elvira", "mixed_youngs_centred", "youngs"}},
        {.name = "interface_order",
         .kind = texts,
-        .doc = "materials in onion-skin order, innermost first; default: as bodies first name them. Void is last"},
+        .doc = "materials in onion-skin order, innermost first; default: as bodies first name "
+               "them. Void is last"},
        {.name = "dt_initial",
         .kind = quantity,
         .doc = "first step; default the stable one",
@@ -462,7 +503,10 @@ const SectionSpec& gauge() {
         .required = true,
         .min_count = 2,
         .max_count = 3},
-       {.name = "rides", .kind = flag, .doc = "moves with the material, else fixed in space", .fallback = "false"},
+       {.name = "rides",
+        .kind = flag,
+        .doc = "moves with the material, else fixed in space",
+        .fallback = "false"},
        {.name = "record",
         .kind = choices,
         .doc = "what is recorded",
@@ -506,12 +550,15 @@ const SectionSpec& results() {
       {{.name = "bullet",
         .kind = texts,
         .doc = "bodies that together are the bullet: speed, mass, extents and depth are reported"},
-       {.name = "target", .kind = text, .doc = "material whose cavity, energy gain and pressure are reported"}}};
+       {.name = "target",
+        .kind = text,
+        .doc = "material whose cavity, energy gain and pressure are reported"}}};
   return spec;
 }
 
 std::string reference() {
-  std::string out = "# Deck reference\n\nGenerated by `ballast deck-reference` from the table that parses decks; do not "
+  std::string out = "# Deck reference\n\nGenerated by `ballast deck-reference` from the table that "
+                    "parses decks; do not "
                     "edit. Units:\n\n| quantity | units (the first is SI) |\n|---|---|\n";
   for (int d = 1; d <= static_cast<int>(Dimension::rate); ++d) {
     const auto dimension = static_cast<Dimension>(d);

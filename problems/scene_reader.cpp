@@ -41,7 +41,8 @@ void read_motion(Deck& deck, DeckNode& node, Motion& motion) {
   motion.remap_every = in.integer("remap_every");
 }
 
-/// onion-skin order: the listed materials, each of those in use once; the rest follow in order of use.
+/// onion-skin order: the listed materials, each of those in use once; the rest follow in order of
+/// use.
 std::vector<int> interface_order(Deck& deck, DeckNode* list, const SceneSpec& scene) {
   std::vector<int> order;
   std::vector<std::string> names;
@@ -135,9 +136,8 @@ void read_output(Deck& deck, DeckNode& node, Output& output) {
 }
 
 int body_called(const SceneSpec& scene, const std::string& name) {
-  const auto at = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) {
-    return b.name == name;
-  });
+  const auto at = std::find_if(
+      scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
   return at == scene.bodies.end() ? -1 : static_cast<int>(at - scene.bodies.begin());
 }
 
@@ -170,7 +170,8 @@ void find_shot(SceneSpec& scene) {
   }
   const Point& u = scene.bodies[static_cast<std::size_t>(r.bullet.front())].velocity;
   const auto axis = static_cast<std::size_t>(
-      std::max_element(u.begin(), u.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+      std::max_element(
+          u.begin(), u.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
       u.begin());
   if (u[axis] == 0) {
     return;
@@ -200,7 +201,9 @@ void read_results(Deck& deck, DeckNode& node, SceneSpec& scene) {
     }
     const auto at = std::find(names.begin(), names.end(), in.text("target"));
     if (at == names.end()) {
-      deck.fail(*in.node("target"), fmt::format("\"{}\" is in no body", in.text("target")), one_of(names));
+      deck.fail(*in.node("target"),
+                fmt::format("\"{}\" is in no body", in.text("target")),
+                one_of(names));
     } else {
       scene.results.target = static_cast<int>(at - names.begin());
     }
@@ -215,7 +218,8 @@ void read_background(Deck& deck, const Section& top, MaterialBook& book, SceneSp
   }
   scene.background = book.index(deck, node->text, *node).value_or(-1);
   if (scene.bodies.empty() && scene.background < 0 && deck.clean()) {
-    deck.fail({top.self().place, "body", "the scene is empty", "at least one [[body]], or a background"});
+    deck.fail(
+        {top.self().place, "body", "the scene is empty", "at least one [[body]], or a background"});
   }
 }
 
@@ -252,8 +256,8 @@ SceneSpec read_scene(Deck& deck) {
   const bool has_geometry = top.has("geometry");
   if (has_geometry) {
     scene.geometry = static_cast<Geometry>(top.choice("geometry"));
-    if (DeckNode* symmetry = top.node("symmetry"); symmetry != nullptr && scene.geometry != Geometry::three_d &&
-                                                   !symmetry->items.empty()) {
+    if (DeckNode* symmetry = top.node("symmetry");
+        symmetry != nullptr && scene.geometry != Geometry::three_d && !symmetry->items.empty()) {
       deck.fail_key(*symmetry, "only in a 3d scene", "`lower = \"symmetry\"` in [mesh.AXIS]");
     }
     // The mesh first, so that bodies and gauges can be placed against it; an inflow's material then

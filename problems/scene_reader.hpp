@@ -11,8 +11,9 @@ namespace ballast {
 
 struct ReadScene {
   SceneSpec scene;
-  std::string resolved; ///< the deck with every default, in SI: TOML that reads back to the same scene
-  std::string source;   ///< the deck as written, for its hash
+  std::string
+      resolved; ///< the deck with every default, in SI: TOML that reads back to the same scene
+  std::string source; ///< the deck as written, for its hash
 };
 
 /// Reads and validates a deck file; `overrides` are "key.path=value". Throws Error.

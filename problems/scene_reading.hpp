@@ -41,8 +41,10 @@ struct Part {
 };
 const Part* find_part(std::string_view name);
 
-/// Unit vector of "+x" ... "-z" in mesh axes; nothing (and an error at `blame`) if the geometry lacks it.
-std::optional<Point> read_direction(Deck& deck, const std::string& text, Geometry geometry, DeckNode& blame);
+/// Unit vector of "+x" ... "-z" in mesh axes; nothing (and an error at `blame`) if the geometry
+/// lacks it.
+std::optional<Point>
+read_direction(Deck& deck, const std::string& text, Geometry geometry, DeckNode& blame);
 
 /// "+z", planar "+x".
 std::string default_direction(Geometry geometry);

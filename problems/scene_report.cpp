@@ -80,30 +80,34 @@ std::string mesh_table(const SceneSpec& scene) {
 std::string material_table(const SceneSpec& scene) {
   std::string out = "materials\n";
   for (const Material& m : scene.materials) {
-    out += fmt::format("  {:<16} {:9.4g} kg/m3  {}; strength: {}{}  [{}]\n",
-                       m.name,
-                       m.density,
-                       describe(m.eos),
-                       describe(m.strength),
-                       std::isfinite(m.spall_pressure) ? fmt::format("; spall {:.3g} Pa", m.spall_pressure) : "",
-                       m.confidence);
+    out += fmt::format(
+        "  {:<16} {:9.4g} kg/m3  {}; strength: {}{}  [{}]\n",
+        m.name,
+        m.density,
+        describe(m.eos),
+        describe(m.strength),
+        std::isfinite(m.spall_pressure) ? fmt::format("; spall {:.3g} Pa", m.spall_pressure) : "",
+        m.confidence);
   }
   return out + fmt::format("  background: {}\n",
-                           scene.background < 0 ? "void"
-                                                : scene.materials[static_cast<std::size_t>(scene.background)].name);
+                           scene.background < 0
+                               ? "void"
+                               : scene.materials[static_cast<std::size_t>(scene.background)].name);
 }
 
 std::string body_table(const SceneSpec& scene) {
   const std::vector<Filled> filled = filled_bodies(scene);
   const bool planar = scene.geometry == Geometry::planar;
-  std::string out = fmt::format("bodies (later ones replace earlier ones){}\n",
-                                scene.geometry == Geometry::three_d ? "; masses are of the part inside the mesh" : "");
+  std::string out = fmt::format(
+      "bodies (later ones replace earlier ones){}\n",
+      scene.geometry == Geometry::three_d ? "; masses are of the part inside the mesh" : "");
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& b = scene.bodies[i];
     const double speed = std::hypot(b.velocity[0], b.velocity[1], b.velocity[2]);
     out += fmt::format("  {:<16} {:<16} {:12.6g} {}  {:8.4g} m/s  {:.5g} J  {}\n",
                        b.name,
-                       b.material < 0 ? "void" : scene.materials[static_cast<std::size_t>(b.material)].name,
+                       b.material < 0 ? "void"
+                                      : scene.materials[static_cast<std::size_t>(b.material)].name,
                        filled[i].mass * (planar ? 1 : 1e3),
                        planar ? "kg/m" : "g",
                        speed,
@@ -116,9 +120,10 @@ std::string body_table(const SceneSpec& scene) {
 std::string numerics_line(const SceneSpec& scene) {
   const char* closures[] = {"pressure relaxation", "Tipton", "equal strain"};
   const char* normals[] = {"ELVIRA", "mixed Youngs-centred", "Youngs"};
-  const std::string motion = scene.motion.policy == MotionPolicy::lagrangian
-                                 ? "never remapped"
-                                 : fmt::format("remapped every {} step(s)", scene.motion.remap_every);
+  const std::string motion =
+      scene.motion.policy == MotionPolicy::lagrangian
+          ? "never remapped"
+          : fmt::format("remapped every {} step(s)", scene.motion.remap_every);
   return fmt::format("numerics: {}, cfl {:g}, closure {}, normals {}\n",
                      motion,
                      scene.numerics.cfl,

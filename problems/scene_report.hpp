@@ -18,7 +18,8 @@ std::vector<Filled> filled_bodies(const SceneSpec& scene);
 /// Volume of the cell lo..hi: planar per metre of depth, axisymmetric the whole ring.
 double cell_volume(Geometry geometry, const Point& lo, const Point& hi);
 
-/// Steps to the end time if the step stays the smallest cell over the fastest sound speed, times cfl.
+/// Steps to the end time if the step stays the smallest cell over the fastest sound speed, times
+/// cfl.
 double estimated_steps(const SceneSpec& scene);
 
 /// Several tables: geometry, mesh and boundaries, materials, bodies, gauges, numerics.

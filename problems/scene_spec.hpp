@@ -1,5 +1,5 @@
-// SceneSpec: everything a run needs, resolved and validated, in SI. problems/scene_reader makes it from
-// a deck; verification runs make it by hand. Nothing here refers to the deck any more.
+// SceneSpec: everything a run needs, resolved and validated, in SI. problems/scene_reader makes it
+// from a deck; verification runs make it by hand. Nothing here refers to the deck any more.
 #pragma once
 
 #include "materials/material.hpp"
@@ -17,11 +17,11 @@ enum class BoundaryKind { symmetry, free, wall, inflow, outflow };
 /// One side of the mesh. Symmetry at r = 0 is the axis.
 struct Boundary {
   BoundaryKind kind = BoundaryKind::free;
-  double wall_velocity = 0; ///< wall: velocity along the axis it closes, m/s
-  int material = -1;        ///< inflow: index into SceneSpec::materials
-  Point velocity{};         ///< inflow, m/s
-  double density = 0;       ///< inflow, kg/m3
-  double pressure = 0;      ///< inflow, Pa
+  double wall_velocity = 0;   ///< wall: velocity along the axis it closes, m/s
+  int material = -1;          ///< inflow: index into SceneSpec::materials
+  Point velocity{};           ///< inflow, m/s
+  double density = 0;         ///< inflow, kg/m3
+  double pressure = 0;        ///< inflow, Pa
   double specific_energy = 0; ///< inflow, J/kg, from density and pressure
 };
 
@@ -54,7 +54,8 @@ struct Numerics {
   double quadratic_q = 1.0; ///< factor on the Kuropatenko coefficient (g+1)/4
   double linear_q = 0.5;    ///< factor on the sound speed
   double hourglass = 0.01;  ///< Flanagan-Belytschko, viscous
-  /// Kinetic energy lost in the remap goes back to heat. automatic: on without strength, off with it.
+  /// Kinetic energy lost in the remap goes back to heat. automatic: on without strength, off with
+  /// it.
   Switch energy_return = Switch::automatic;
   InterfaceNormal normal = InterfaceNormal::elvira;
   /// Onion-skin order: indices into SceneSpec::materials, first peeled first; void is last.
@@ -75,20 +76,22 @@ struct Gauge {
 using NamedProbe = Gauge;
 
 struct Output {
-  double fields_every = std::numeric_limits<double>::infinity();  ///< s; start and end always
-  std::vector<std::string> fields;                                ///< of field_quantities()
-  double history_every = 0;                                       ///< s, 0: every step
+  double fields_every = std::numeric_limits<double>::infinity();     ///< s; start and end always
+  std::vector<std::string> fields;                                   ///< of field_quantities()
+  double history_every = 0;                                          ///< s, 0: every step
   double checkpoint_every = std::numeric_limits<double>::infinity(); ///< s of wall clock
 };
 
-/// What summary.json reports beyond the ledger. Indices into bodies and materials; empty, -1: nothing.
+/// What summary.json reports beyond the ledger. Indices into bodies and materials; empty, -1:
+/// nothing.
 struct Results {
-  std::vector<int> bullet;       ///< bodies that together are the bullet: speed, mass, extents, depth
+  std::vector<int> bullet; ///< bodies that together are the bullet: speed, mass, extents, depth
   std::vector<std::string> bullet_names;
-  int target = -1;               ///< material whose cavity and energy gain are reported
-  double target_face = std::numeric_limits<double>::quiet_NaN(); ///< depth counts from here along the shot
-  int shot_axis = 1;             ///< mesh axis the bullet flies along
-  double shot_direction = 1;     ///< +1 or -1 on that axis
+  int target = -1; ///< material whose cavity and energy gain are reported
+  double target_face =
+      std::numeric_limits<double>::quiet_NaN(); ///< depth counts from here along the shot
+  int shot_axis = 1;                            ///< mesh axis the bullet flies along
+  double shot_direction = 1;                    ///< +1 or -1 on that axis
 };
 
 struct SceneSpec {
@@ -122,6 +125,9 @@ std::vector<std::string> axis_names(Geometry geometry);
 /// Cells of the mesh, all axes multiplied.
 std::size_t cell_count(const SceneSpec& scene);
 /// Shares of the cell lo..hi that each body shows, later bodies replacing earlier ones.
-void body_fractions(const SceneSpec& scene, const Point& lo, const Point& hi, std::span<double> shares);
+void body_fractions(const SceneSpec& scene,
+                    const Point& lo,
+                    const Point& hi,
+                    std::span<double> shares);
 
 } // namespace ballast

@@ -54,7 +54,8 @@ std::optional<Shape> read_cylinder(Context c, DeckNode& node) {
   if (!in.has("from") || !in.has("to") || !in.has("radius")) {
     return std::nullopt;
   }
-  const Cylinder cylinder{point_of(in.numbers("from")), point_of(in.numbers("to")), in.number("radius")};
+  const Cylinder cylinder{
+      point_of(in.numbers("from")), point_of(in.numbers("to")), in.number("radius")};
   if (cylinder.from == cylinder.to) {
     c.deck.fail(*in.node("to"), "the same point as `from`", "two different ends");
     return std::nullopt;
@@ -107,8 +108,9 @@ Profile profile_from_file(const std::string& path, std::string& problem) {
     const std::string first = line.substr(0, comma);
     const std::string second = comma == std::string::npos ? "" : line.substr(comma + 1);
     if (scale == 0) {
-      const Quantity unit =
-          first.starts_with("z_") ? parse_quantity("1 " + first.substr(2), Dimension::length) : Quantity{};
+      const Quantity unit = first.starts_with("z_")
+                                ? parse_quantity("1 " + first.substr(2), Dimension::length)
+                                : Quantity{};
       scale = unit.ok() ? unit.value : 0;
       if (scale <= 0 || second != "r_" + first.substr(2)) {
         problem = fmt::format("{}:{}: header \"{}\", wanted \"z_mm,r_mm\"", path, number, line);
@@ -116,7 +118,8 @@ Profile profile_from_file(const std::string& path, std::string& problem) {
       }
       continue;
     }
-    const Quantity z = parse_quantity(first, Dimension::none), r = parse_quantity(second, Dimension::none);
+    const Quantity z = parse_quantity(first, Dimension::none),
+                   r = parse_quantity(second, Dimension::none);
     if (!z.ok() || !r.ok()) {
       problem = fmt::format("{}:{}: \"{}\" is not two numbers", path, number, line);
       return {};
@@ -135,7 +138,8 @@ std::string profile_problem(const Profile& profile) {
       return fmt::format("point {} has a negative radius {:g} m", i, profile[i][1]);
     }
     if (i > 0 && profile[i][0] < profile[i - 1][0]) {
-      return fmt::format("point {} goes back in z, {:g} m after {:g} m", i, profile[i][0], profile[i - 1][0]);
+      return fmt::format(
+          "point {} goes back in z, {:g} m after {:g} m", i, profile[i][0], profile[i - 1][0]);
     }
   }
   return profile.back()[0] > profile.front()[0] ? "" : "an outline of no length";
@@ -255,7 +259,9 @@ Point point_of(const std::vector<double>& values) {
   return p;
 }
 
-std::string default_direction(Geometry geometry) { return geometry == Geometry::planar ? "+x" : "+z"; }
+std::string default_direction(Geometry geometry) {
+  return geometry == Geometry::planar ? "+x" : "+z";
+}
 
 std::optional<Point>
 read_direction(Deck& deck, const std::string& text, Geometry geometry, DeckNode& blame) {
@@ -273,7 +279,9 @@ read_direction(Deck& deck, const std::string& text, Geometry geometry, DeckNode&
       return axis;
     }
   }
-  deck.fail(blame, fmt::format("{} is no direction of a {} scene", text, name_of(geometry)), one_of(allowed));
+  deck.fail(blame,
+            fmt::format("{} is no direction of a {} scene", text, name_of(geometry)),
+            one_of(allowed));
   return std::nullopt;
 }
 

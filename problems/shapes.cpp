@@ -10,8 +10,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Point operator-(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 Point axis_of(const Cylinder& c) {
   Point a = c.to - c.from;
   const double length = std::sqrt(dot(a, a));
@@ -46,10 +50,10 @@ double segment_distance(const std::array<double, 2>& p,
 
 /// First profile segment that can reach z: index i of points i, i + 1.
 std::size_t segment_at(const Revolved& r, double z) {
-  const auto above = std::upper_bound(r.profile.begin(),
-                                      r.profile.end(),
-                                      z,
-                                      [](double value, const auto& point) { return value < point[0]; });
+  const auto above =
+      std::upper_bound(r.profile.begin(), r.profile.end(), z, [](double value, const auto& point) {
+        return value < point[0];
+      });
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, above - r.profile.begin()) - 1);
 }
 
@@ -99,7 +103,9 @@ double distance_to(const Revolved& r, const Point& p) {
   return inside_outline(r, q) ? -d : d;
 }
 
-double distance_to(const HalfSpace& h, const Point& p) { return dot(p - h.point, h.outward); }
+double distance_to(const HalfSpace& h, const Point& p) {
+  return dot(p - h.point, h.outward);
+}
 
 double distance_to(const Combination& c, const Point& p) {
   double d = signed_distance(c.parts.front(), p);
@@ -120,9 +126,32 @@ double distance_to(const Combination& c, const Point& p) {
   return d;
 }
 
+// ---- inside or not ----
+
+template <class Form> bool holds(const Form& form, const Point& p) {
+  return distance_to(form, p) < 0;
+}
+bool holds(const Revolved& r, const Point& p) {
+  return inside_outline(r, turned(r, p));
+}
+bool holds(const Combination& c, const Point& p) {
+  const auto in = [&](const Shape& part) { return contains(part, p); };
+  switch (c.kind) {
+  case Combination::Kind::unite:
+    return std::any_of(c.parts.begin(), c.parts.end(), in);
+  case Combination::Kind::intersect:
+    return std::all_of(c.parts.begin(), c.parts.end(), in);
+  case Combination::Kind::subtract:
+    break;
+  }
+  return in(c.parts.front()) && std::none_of(c.parts.begin() + 1, c.parts.end(), in);
+}
+
 // ---- bounds ----
 
-Bounds bounds_of(const Box& box) { return {box.from, box.to}; }
+Bounds bounds_of(const Box& box) {
+  return {box.from, box.to};
+}
 
 Bounds bounds_of(const Sphere& s) {
   Bounds b{s.centre, s.centre};
@@ -144,7 +173,9 @@ Bounds tube(const Point& from, const Point& to, const Point& axis, double radius
   return b;
 }
 
-Bounds bounds_of(const Cylinder& c) { return tube(c.from, c.to, axis_of(c), c.radius); }
+Bounds bounds_of(const Cylinder& c) {
+  return tube(c.from, c.to, axis_of(c), c.radius);
+}
 
 Bounds bounds_of(const Revolved& r) {
   Point from = r.origin, to = r.origin;
@@ -240,7 +271,8 @@ void cut(const Sphere& s, const Line& line, Cuts& cuts) {
   }
 }
 
-/// The line relative to a solid of revolution: along(t) = z0 + za t, rho^2(t) = |d + t e|^2 - along^2.
+/// The line relative to a solid of revolution: along(t) = z0 + za t, rho^2(t) = |d + t e|^2 -
+/// along^2.
 struct Relative {
   double z0, za, d2, dk;
   Relative(const Line& line, const Point& origin, const Point& axis) {
@@ -254,9 +286,7 @@ struct Relative {
   /// t where rho = r0 + slope (along - z_ref).
   void cone(double r0, double slope, double z_ref, Cuts& cuts) const {
     const double m2 = 1 + slope * slope, base = r0 + slope * (z0 - z_ref);
-    cuts.add_roots(1 - m2 * za * za,
-                   dk - z0 * za - slope * za * base,
-                   d2 - z0 * z0 - base * base);
+    cuts.add_roots(1 - m2 * za * za, dk - z0 * za - slope * za * base, d2 - z0 * z0 - base * base);
   }
   void plane(double z, Cuts& cuts) const {
     if (za != 0) {
@@ -275,7 +305,8 @@ void cut(const Cylinder& c, const Line& line, Cuts& cuts) {
 
 void cut(const Revolved& r, const Line& line, Cuts& cuts) {
   const Relative relative(line, r.origin, r.axis);
-  const double at_lo = relative.z0 + relative.za * line.lo, at_hi = relative.z0 + relative.za * line.hi;
+  const double at_lo = relative.z0 + relative.za * line.lo,
+               at_hi = relative.z0 + relative.za * line.hi;
   const double z_lo = std::min(at_lo, at_hi), z_hi = std::max(at_lo, at_hi);
   relative.plane(r.profile.front()[0], cuts);
   relative.plane(r.profile.back()[0], cuts);
@@ -310,21 +341,25 @@ void cut(const Shape& shape, const Line& line, Cuts& cuts) {
   std::visit([&](const auto& form) { cut(form, line, cuts); }, shape.form);
 }
 
-// ---- coordinates along axis j where a section may jump: lines are never laid across them ----
+// ---- coordinates along axis j where a section may jump or bend (`flat`: a 2D scene, where round
+// sides do so too): lines are never laid across them ----
 
-void jumps(const Box& box, std::size_t j, std::vector<double>& out) {
+void jumps(const Box& box, std::size_t j, bool, std::vector<double>& out) {
   out.insert(out.end(), {box.from[j], box.to[j]});
 }
-void jumps(const Sphere& s, std::size_t j, std::vector<double>& out) {
-  out.insert(out.end(), {s.centre[j] - s.radius, s.centre[j] + s.radius});
+void jumps(const Sphere& s, std::size_t j, bool flat, std::vector<double>& out) {
+  if (flat) {
+    out.insert(out.end(), {s.centre[j] - s.radius, s.centre[j] + s.radius});
+  }
 }
-void jumps(const Cylinder& c, std::size_t j, std::vector<double>& out) {
-  if (aligned_with(axis_of(c)) >= 0) {
+void jumps(const Cylinder& c, std::size_t j, bool flat, std::vector<double>& out) {
+  const int k = aligned_with(axis_of(c));
+  if (k == static_cast<int>(j) || (k >= 0 && flat)) {
     const Bounds b = bounds_of(c);
     out.insert(out.end(), {b.lo[j], b.hi[j]});
   }
 }
-void jumps(const Revolved& r, std::size_t j, std::vector<double>& out) {
+void jumps(const Revolved& r, std::size_t j, bool flat, std::vector<double>& out) {
   const int k = aligned_with(r.axis);
   if (k < 0) {
     return;
@@ -332,24 +367,24 @@ void jumps(const Revolved& r, std::size_t j, std::vector<double>& out) {
   for (const auto& point : r.profile) {
     if (static_cast<std::size_t>(k) == j) {
       out.push_back(r.origin[j] + r.axis[j] * point[0]);
-    } else {
+    } else if (flat) {
       out.insert(out.end(), {r.origin[j] - point[1], r.origin[j] + point[1]});
     }
   }
 }
-void jumps(const HalfSpace& h, std::size_t j, std::vector<double>& out) {
+void jumps(const HalfSpace& h, std::size_t j, bool, std::vector<double>& out) {
   if (aligned_with(h.outward) == static_cast<int>(j)) {
     out.push_back(h.point[j]);
   }
 }
-void jumps(const Shape& shape, std::size_t j, std::vector<double>& out);
-void jumps(const Combination& c, std::size_t j, std::vector<double>& out) {
+void jumps(const Shape& shape, std::size_t j, bool flat, std::vector<double>& out);
+void jumps(const Combination& c, std::size_t j, bool flat, std::vector<double>& out) {
   for (const Shape& part : c.parts) {
-    jumps(part, j, out);
+    jumps(part, j, flat, out);
   }
 }
-void jumps(const Shape& shape, std::size_t j, std::vector<double>& out) {
-  std::visit([&](const auto& form) { jumps(form, j, out); }, shape.form);
+void jumps(const Shape& shape, std::size_t j, bool flat, std::vector<double>& out) {
+  std::visit([&](const auto& form) { jumps(form, j, flat, out); }, shape.form);
 }
 
 // ---- one cell ----
@@ -392,7 +427,9 @@ Side side_of(const Shape& shape, const Cell& cell) {
 }
 
 /// The last of `candidates` that holds p, or -1.
-int owner(std::span<const Shape* const> shapes, std::span<const std::size_t> candidates, const Point& p) {
+int owner(std::span<const Shape* const> shapes,
+          std::span<const std::size_t> candidates,
+          const Point& p) {
   for (auto it = candidates.rbegin(); it != candidates.rend(); ++it) {
     if (contains(*shapes[*it], p)) {
       return static_cast<int>(*it);
@@ -401,8 +438,38 @@ int owner(std::span<const Shape* const> shapes, std::span<const std::size_t> can
   return -1;
 }
 
-/// The axis along which the owner changes most often on a coarse grid: lines along it meet the surface
-/// most squarely.
+/// The axis nearest to the normal of the surface nearest to the cell's centre.
+std::size_t normal_axis(std::span<const Shape* const> shapes,
+                        std::span<const std::size_t> candidates,
+                        const Cell& cell) {
+  const Point c = cell.centre();
+  double nearest = infinity;
+  std::size_t axis = 0;
+  for (const std::size_t s : candidates) {
+    const double d = std::abs(signed_distance(*shapes[s], c));
+    if (d >= nearest) {
+      continue;
+    }
+    nearest = d;
+    double steepest = -1;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(cell.dim()); ++k) {
+      Point a = c, b = c;
+      a[k] -= 1e-3 * cell.half_diagonal();
+      b[k] += 1e-3 * cell.half_diagonal();
+      const double slope =
+          std::abs(signed_distance(*shapes[s], b) - signed_distance(*shapes[s], a));
+      if (slope > steepest) {
+        steepest = slope;
+        axis = k;
+      }
+    }
+  }
+  return axis;
+}
+
+/// The axis along which the owner changes most often on a coarse grid: lines along it meet the
+/// surfaces most squarely. Where the grid hardly sees them (a corner cut off), the nearest surface
+/// decides.
 std::size_t best_axis(std::span<const Shape* const> shapes,
                       std::span<const std::size_t> candidates,
                       const Cell& cell) {
@@ -427,32 +494,29 @@ std::size_t best_axis(std::span<const Shape* const> shapes,
       }
     }
   }
-  return static_cast<std::size_t>(std::max_element(changes.begin(), changes.end()) - changes.begin());
+  const auto most = std::max_element(changes.begin(), changes.end());
+  return 2 * *most < n * nk ? normal_axis(shapes, candidates, cell)
+                            : static_cast<std::size_t>(most - changes.begin());
 }
 
-/// Midpoints and widths of `count` or more lines on lo..hi that respect the jumps.
 struct Abscissa {
   double x, weight;
 };
-std::vector<Abscissa> abscissae(double lo, double hi, int count, std::vector<double> marks) {
-  std::erase_if(marks, [&](double m) { return !(m > lo && m < hi); });
-  marks.insert(marks.end(), {lo, hi});
-  std::sort(marks.begin(), marks.end());
+
+/// Midpoints and widths of equal lines across axis k, `density` of them on a whole cell.
+std::vector<Abscissa> lines_across(const Cell& part, std::size_t k, double whole, int density) {
+  const int n = std::max(3, static_cast<int>(std::ceil(density * part.size(k) / whole)));
   std::vector<Abscissa> out;
-  for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
-    const double width = marks[i + 1] - marks[i];
-    if (width <= 1e-12 * (hi - lo)) {
-      continue;
-    }
-    const int n = std::max(2, static_cast<int>(std::ceil(count * width / (hi - lo))));
-    for (int k = 0; k < n; ++k) {
-      out.push_back({marks[i] + (k + 0.5) * width / n, width / n});
-    }
+  for (int i = 0; i < n; ++i) {
+    const double x = part.lo[k] + (i + 0.5) * part.size(k) / n;
+    const bool radius = part.geometry == Geometry::axisymmetric && k == 0;
+    out.push_back({x, part.size(k) / n * (radius ? x : 1.0)});
   }
   return out;
 }
 
-/// Adds each owner's share of one line, `weight` its cross-section; r-lines weigh with r themselves.
+/// Adds each owner's share of one line, `weight` its cross-section; r-lines weigh with r
+/// themselves.
 void cast_line(std::span<const Shape* const> shapes,
                std::span<const std::size_t> candidates,
                const Line& line,
@@ -479,42 +543,70 @@ void cast_line(std::span<const Shape* const> shapes,
   }
 }
 
-std::vector<Abscissa> lines_across(std::span<const Shape* const> shapes,
-                                   std::span<const std::size_t> candidates,
-                                   const Cell& cell,
-                                   std::size_t axis) {
-  std::vector<double> marks;
-  for (const std::size_t s : candidates) {
-    jumps(*shapes[s], axis, marks);
-  }
-  const int count = cell.dim() == 3 ? 10 : 40;
-  auto lines = abscissae(cell.lo[axis], cell.hi[axis], count, std::move(marks));
-  if (cell.geometry == Geometry::axisymmetric && axis == 0) {
-    for (Abscissa& a : lines) {
-      a.weight *= a.x;
+/// One part of a cell, free of aligned faces inside.
+void cast_part(std::span<const Shape* const> shapes,
+               std::span<const std::size_t> candidates,
+               const Cell& part,
+               const Cell& cell,
+               std::span<double> sums) {
+  const std::size_t k = best_axis(shapes, candidates, part);
+  const bool flat = cell.dim() == 2;
+  const std::size_t j = k == 0 ? 1 : 0;
+  const std::size_t l = 3 - j - k; // the other transverse axis, 3D only
+  const bool weigh = cell.geometry == Geometry::axisymmetric && k == 0;
+  const auto across_j = lines_across(part, j, cell.size(j), flat ? 40 : 24);
+  const auto across_l =
+      flat ? std::vector<Abscissa>{{0.0, 1.0}} : lines_across(part, l, cell.size(l), 24);
+  for (const Abscissa& b : across_l) {
+    for (const Abscissa& a : across_j) {
+      Line line{{}, k, part.lo[k], part.hi[k]};
+      line.p[j] = a.x;
+      line.p[l] = b.x;
+      cast_line(shapes, candidates, line, weigh, a.weight * b.weight, sums);
     }
   }
-  return lines;
 }
 
+/// Ends of the stretches that the jumps cut axis k of a cell into.
+std::vector<double> stretches(std::span<const Shape* const> shapes,
+                              std::span<const std::size_t> candidates,
+                              const Cell& cell,
+                              std::size_t k) {
+  if (k == 2 && cell.dim() == 2) {
+    return {0, 0};
+  }
+  std::vector<double> marks;
+  for (const std::size_t s : candidates) {
+    jumps(*shapes[s], k, cell.dim() == 2, marks);
+  }
+  const double least = 1e-12 * cell.size(k);
+  std::erase_if(marks,
+                [&](double m) { return !(m > cell.lo[k] + least && m < cell.hi[k] - least); });
+  marks.insert(marks.end(), {cell.lo[k], cell.hi[k]});
+  std::sort(marks.begin(), marks.end());
+  const auto same = [&](double a, double b) { return b - a <= least; };
+  marks.erase(std::unique(marks.begin(), marks.end(), same), marks.end());
+  return marks;
+}
+
+/// Cuts the cell at aligned faces, which lines along any axis would miss or graze, and casts each
+/// part.
 void cast_cell(std::span<const Shape* const> shapes,
                std::span<const std::size_t> candidates,
                const Cell& cell,
                std::span<double> sums) {
-  const std::size_t k = best_axis(shapes, candidates, cell);
-  const auto dim = static_cast<std::size_t>(cell.dim());
-  const std::size_t j = k == 0 ? 1 : 0;
-  const std::size_t l = 3 - j - k; // the other transverse axis, 3D only
-  const bool weigh = cell.geometry == Geometry::axisymmetric && k == 0;
-  const auto across_j = lines_across(shapes, candidates, cell, j);
-  const auto across_l = dim == 3 ? lines_across(shapes, candidates, cell, l)
-                                 : std::vector<Abscissa>{{0.0, 1.0}};
-  for (const Abscissa& b : across_l) {
-    for (const Abscissa& a : across_j) {
-      Line line{{}, k, cell.lo[k], cell.hi[k]};
-      line.p[j] = a.x;
-      line.p[l] = b.x;
-      cast_line(shapes, candidates, line, weigh, a.weight * b.weight, sums);
+  std::array<std::vector<double>, 3> marks;
+  for (std::size_t k = 0; k < 3; ++k) {
+    marks[k] = stretches(shapes, candidates, cell, k);
+  }
+  for (std::size_t k = 0; k + 1 < marks[2].size(); ++k) {
+    for (std::size_t j = 0; j + 1 < marks[1].size(); ++j) {
+      for (std::size_t i = 0; i + 1 < marks[0].size(); ++i) {
+        const Cell part{cell.geometry,
+                        {marks[0][i], marks[1][j], marks[2][k]},
+                        {marks[0][i + 1], marks[1][j + 1], marks[2][k + 1]}};
+        cast_part(shapes, candidates, part, cell, sums);
+      }
     }
   }
 }
@@ -533,6 +625,10 @@ Bounds bounds(const Shape& shape) {
   return std::visit([](const auto& form) { return bounds_of(form); }, shape.form);
 }
 
+bool contains(const Shape& shape, const Point& p) {
+  return std::visit([&](const auto& form) { return holds(form, p); }, shape.form);
+}
+
 double signed_distance(const Shape& shape, const Point& p) {
   return std::visit([&](const auto& form) { return distance_to(form, p); }, shape.form);
 }
@@ -546,7 +642,8 @@ void visible_fractions(std::span<const Shape* const> shapes,
   std::fill(shares.begin(), shares.end(), 0.0);
   std::vector<std::size_t> candidates; // ascending
   bool any_cut = false;
-  for (std::size_t s = shapes.size(); s-- > 0;) { // from the top: what lies under a full one is hidden
+  for (std::size_t s = shapes.size();
+       s-- > 0;) { // from the top: what lies under a full one is hidden
     const Side side = side_of(*shapes[s], cell);
     if (side == Side::outside) {
       continue;
@@ -580,15 +677,21 @@ double fraction(const Shape& shape, Geometry geometry, const Point& lo, const Po
 }
 
 namespace {
-std::string describe_one(const Box&) { return "box"; }
-std::string describe_one(const Sphere& s) { return fmt::format("sphere, radius {:g} m", s.radius); }
+std::string describe_one(const Box&) {
+  return "box";
+}
+std::string describe_one(const Sphere& s) {
+  return fmt::format("sphere, radius {:g} m", s.radius);
+}
 std::string describe_one(const Cylinder& c) {
   return fmt::format("cylinder, radius {:g} m", c.radius);
 }
 std::string describe_one(const Revolved& r) {
   return fmt::format("revolved profile of {} points", r.profile.size());
 }
-std::string describe_one(const HalfSpace&) { return "half space"; }
+std::string describe_one(const HalfSpace&) {
+  return "half space";
+}
 std::string describe_one(const Combination& c) {
   const char* names[] = {"union", "intersection", "difference"};
   return fmt::format("{} of {} shapes", names[static_cast<int>(c.kind)], c.parts.size());

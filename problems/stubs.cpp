@@ -5,7 +5,11 @@
 
 namespace ballast {
 
-int run_command(const RunOptions&) { throw Error("run is not built into this program yet"); }
-int verify_command(const VerifyOptions&) { throw Error("verify is not built into this program yet"); }
+int run_command(const RunOptions&) {
+  throw Error("run is not built into this program yet");
+}
+int verify_command(const VerifyOptions&) {
+  throw Error("verify is not built into this program yet");
+}
 
 } // namespace ballast

@@ -15,7 +15,6 @@ struct DiscScene {
   double r_end = 0.030, z_begin = -0.030, z_end = 0.040; // m
   double radius = 0.005, speed = 800, z_start = -0.012;  // the disc: m, m/s, m
   double gel_front = 0;                                  // gel fills z > gel_front
-  double width = 1.0, depth = 0.3;                       // scale of the pressure field
   double end_time = 40e-6;                               // s
   double disc_z(double time) const { return z_start + speed * time; }
 };

@@ -1,0 +1,92 @@
+// Every deck in tests/bad_decks is refused, at the line and key its first line names.
+#include "problems/scene_reader.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace ballast {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Expected {
+  int line = 0;
+  std::string key;
+};
+
+/// "# expect: line 7 key mesh.r.size"; key "-": none, the deck is not TOML.
+Expected expected_of(const fs::path& path) {
+  std::ifstream in(path);
+  std::string hash, expect, line, key;
+  Expected out;
+  in >> hash >> expect >> line >> out.line >> key >> out.key;
+  EXPECT_EQ(hash + expect + line + key, "#expect:linekey") << path;
+  out.key = out.key == "-" ? "" : out.key;
+  return out;
+}
+
+std::vector<fs::path> bad_decks() {
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(BALLAST_SOURCE_DIR "/tests/bad_decks")) {
+    if (entry.path().extension() == ".toml") {
+      paths.push_back(entry.path());
+    }
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+/// Keys as a user would write them: an error in an entry or in a bare word counts as its key's.
+bool same_key(const std::string& got, const std::string& wanted) {
+  return got == wanted || got == wanted + ".type";
+}
+
+TEST(BadDecks, ThereAreEnough) {
+  EXPECT_GE(bad_decks().size(), 40u);
+}
+
+TEST(BadDecks, AreRefusedWhereTheyAreWrong) {
+  for (const fs::path& path : bad_decks()) {
+    const Expected expected = expected_of(path);
+    Deck deck = Deck::load(path.string());
+    read_scene(deck);
+    const bool found =
+        std::any_of(deck.errors().begin(), deck.errors().end(), [&](const DeckError& e) {
+          return e.place.line == expected.line && same_key(e.key, expected.key) &&
+                 !e.message.empty();
+        });
+    EXPECT_TRUE(found) << path.filename() << ": expected line " << expected.line << " key "
+                       << expected.key << ", got\n"
+                       << deck.error_report();
+    const std::string report = deck.error_report();
+    EXPECT_NE(report.find(path.string() + ":" + std::to_string(expected.line) + ":"),
+              std::string::npos)
+        << report;
+    EXPECT_NE(report.find("^"), std::string::npos) << report;
+  }
+}
+
+TEST(BadDecks, OneMistakeGivesOneError) {
+  for (const fs::path& path : bad_decks()) {
+    if (path.stem() == "many_errors") {
+      continue;
+    }
+    Deck deck = Deck::load(path.string());
+    read_scene(deck);
+    EXPECT_EQ(deck.errors().size(), 1u) << deck.error_report();
+  }
+}
+
+TEST(BadDecks, AllErrorsComeInOnePass) {
+  Deck deck = Deck::load(BALLAST_SOURCE_DIR "/tests/bad_decks/many_errors.toml");
+  read_scene(deck);
+  EXPECT_EQ(deck.errors().size(), 5u)
+      << deck.error_report(); // geometry, end_time, titel, cfl, no mesh
+}
+
+} // namespace
+} // namespace ballast

@@ -1,0 +1,156 @@
+#include "tests/verify/tube.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast::verify {
+
+template <int Dim> TubeRun<Dim> make_tube(const Tube& t) {
+  TubeRun<Dim> run;
+  Block<Dim> b;
+  b.motion = {t.motion, t.remap_every};
+  b.reference_pressure = t.reference_pressure;
+  const bool one = t.materials[0].name == t.materials[1].name;
+  b.materials.push_back(make_slot(t.materials[0], t.reference_pressure));
+  if (!one) {
+    b.materials.push_back(make_slot(t.materials[1], t.reference_pressure));
+  }
+  std::array<std::vector<double>, 3> lines;
+  const double h = t.length / t.cells;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    lines[d] = {0, h};
+  }
+  auto& line = lines[static_cast<std::size_t>(t.axis)];
+  line.clear();
+  double shift = 0;
+  if (t.interface_in_cell) {
+    const int cell = static_cast<int>(std::lround(t.interface / h - 0.5));
+    shift = t.interface - (cell + 0.5) * h;
+  }
+  for (int i = 0; i <= t.cells; ++i) {
+    line.push_back(i == 0 ? 0 : i == t.cells ? t.length : i * h + shift);
+  }
+  allocate_block(b, lines);
+  for_each_cell(b, [&](int i, int j, int k) {
+    const int index[3] = {i, j, k};
+    const auto c = static_cast<std::size_t>(index[t.axis]);
+    const double f = std::clamp((t.interface - line[c]) / (line[c + 1] - line[c]), 0.0, 1.0);
+    if (one) {
+      const TubeState& s = f > 0.5 ? t.left : t.right;
+      fill_cell<Dim>(b, i, j, k, std::vector<CellPart>{{0, 1, s.density, s.specific_energy}});
+      return;
+    }
+    const bool left = f > 1 - 1e-9, right = f < 1e-9;
+    fill_cell<Dim>(b, i, j, k, std::vector<CellPart>{{0, left ? 1 : right ? 0 : f, t.left.density, t.left.specific_energy},
+                               {1, left ? 0 : right ? 1 : 1 - f, t.right.density, t.right.specific_energy}});
+  });
+  const auto a = static_cast<std::size_t>(t.axis);
+  set_velocity(b, [&](const std::array<double, Dim>& x, std::array<double, Dim>& u) {
+    u[a] = x[a] <= t.interface + 1e-12 ? t.left.velocity : t.right.velocity;
+  });
+  b.boundary.side[a][0] = {BoundaryKind::wall, t.left.velocity};
+  b.boundary.side[a][1] = {BoundaryKind::wall, t.right.velocity};
+  run.scene.numerics = t.numerics;
+  run.scene.pool = std::make_unique<ThreadPool>(t.threads);
+  run.scene.blocks.push_back(std::move(b));
+  run.clock.end_time = t.end_time;
+  prepare(run.scene);
+  run.start = totals(run.scene.blocks[0]);
+  return run;
+}
+
+template <int Dim> TubeRun<Dim> run_tube(const Tube& tube) {
+  TubeRun<Dim> r = make_tube<Dim>(tube);
+  run(r.scene, r.clock);
+  r.end = totals(r.scene.blocks[0]);
+  return r;
+}
+
+template <int Dim> std::vector<TubeCell> profile(const TubeRun<Dim>& run, int axis) {
+  const Block<Dim>& b = run.scene.blocks[0];
+  const auto a = static_cast<std::size_t>(axis);
+  std::vector<TubeCell> out;
+  for_each_cell(b, [&](int i, int j, int k) {
+    const int r = b.grid.cell_row(j, k), n0 = b.grid.node_row(j, k), n1 = n0 + b.grid.node_row_stride(axis);
+    const int s = axis == 0 ? 1 : 0;
+    const double x0 = b.position[a].row(n0)[i], x1 = b.position[a].row(n1)[i + s];
+    const double u = 0.5 * (b.velocity[a].row(n0)[i] + b.velocity[a].row(n1)[i + s]);
+    out.push_back({0.5 * (x0 + x1), x1 - x0, b.density.row(r)[i], u,
+                   b.pressure.row(r)[i] + b.reference_pressure, b.owner_row(r)[i] < 0});
+  });
+  return out;
+}
+
+TubeError error_against(const std::vector<TubeCell>& cells, const exact::Riemann& exact, double x0, double t) {
+  TubeError e;
+  for (const TubeCell& c : cells) {
+    if (c.mixed) {
+      continue;
+    }
+    const auto s = exact.at((c.centre - x0) / t);
+    e.density += std::abs(c.density - s.density) * c.width;
+    e.velocity += std::abs(c.velocity - s.velocity) * c.width;
+    e.pressure += std::abs(c.pressure - s.pressure) * c.width;
+  }
+  return e;
+}
+
+Material gas(const std::string& name, const exact::GasState& s) {
+  Material m;
+  m.name = name;
+  if (s.p_infinity == 0) {
+    m.eos = IdealGas{s.gamma};
+  } else {
+    m.eos = StiffenedGas{s.gamma, s.p_infinity};
+  }
+  m.density = s.density;
+  m.specific_energy = energy(m.eos, s.density, s.pressure);
+  return m;
+}
+
+Tube riemann_tube(const exact::GasState& left, const exact::GasState& right, double x0, double t, int cells) {
+  Tube tube;
+  tube.cells = cells;
+  tube.interface = x0;
+  tube.end_time = t;
+  const bool same = left.gamma == right.gamma && left.p_infinity == right.p_infinity;
+  tube.materials = {gas("left", left), gas(same ? "left" : "right", right)};
+  tube.left = {0, left.density, left.velocity, tube.materials[0].specific_energy};
+  tube.right = {1, right.density, right.velocity, tube.materials[1].specific_energy};
+  return tube;
+}
+
+template <int Dim> Conservation conservation(const TubeRun<Dim>& run) {
+  Conservation c;
+  const Ledger& l = run.scene.ledger;
+  const double e0 = run.start.internal() + run.start.kinetic_energy;
+  const double e1 = run.end.internal() + run.end.kinetic_energy;
+  const double known = l.boundary_work + l.ambient_work + l.void_work - l.remap_kinetic_loss - l.energy_out - l.sliver_energy;
+  c.energy = std::abs(e1 - e0 - known) / (std::abs(e0) + std::abs(l.boundary_work));
+  for (std::size_t m = 0; m < run.start.mass.size(); ++m) {
+    if (run.start.mass[m] > 0) {
+      c.mass = std::max(c.mass, std::abs(run.end.mass[m] + l.mass_out[m] - run.start.mass[m]) / run.start.mass[m]);
+    }
+  }
+  double scale = 0;
+  for (double m : run.start.mass) {
+    scale += m;
+  }
+  scale *= std::sqrt(2 * std::max(run.start.kinetic_energy, run.end.kinetic_energy) / scale) + 1e-300;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double change = run.end.momentum[d] + l.momentum_out[d] - run.start.momentum[d];
+    c.momentum = std::max(c.momentum, std::abs(change) / scale);
+  }
+  return c;
+}
+
+template TubeRun<2> make_tube<2>(const Tube&);
+template TubeRun<3> make_tube<3>(const Tube&);
+template TubeRun<2> run_tube<2>(const Tube&);
+template TubeRun<3> run_tube<3>(const Tube&);
+template std::vector<TubeCell> profile<2>(const TubeRun<2>&, int);
+template std::vector<TubeCell> profile<3>(const TubeRun<3>&, int);
+template Conservation conservation<2>(const TubeRun<2>&);
+template Conservation conservation<3>(const TubeRun<3>&);
+
+} // namespace ballast::verify
