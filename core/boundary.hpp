@@ -11,7 +11,7 @@ namespace ballast {
 /// symmetry: no normal velocity, mirrored ghosts (also the axis r = 0). wall: rigid, frictionless, may
 /// move along its normal. free: no traction beyond the reference pressure. outflow: as if the block went
 /// on unchanged. inflow: prescribed velocity and states (the block's initial edge cells).
-enum class BoundaryKind { symmetry, wall, free, outflow, inflow };
+enum class BoundaryKind { symmetry, free, wall, inflow, outflow };
 
 struct BoundarySide {
   BoundaryKind kind = BoundaryKind::symmetry;

@@ -56,6 +56,11 @@ public:
     return static_cast<std::size_t>(2 * conserved_ + derived_) *
            static_cast<std::size_t>(rows_per_tile_) * static_cast<std::size_t>(pitch_);
   }
+  /// Everything of one tile, and which half of the conserved fields is current: for checkpoints.
+  double* tile_data(int tile) { return tiles_[static_cast<std::size_t>(tile)].get(); }
+  const double* tile_data(int tile) const { return tiles_[static_cast<std::size_t>(tile)].get(); }
+  int current() const { return current_; }
+  void set_current(int current) { current_ = current; }
   /// Any nonzero value of `field` in the rows of `tile`?
   bool any(int field, int tile) const {
     if (!allocated(tile)) {

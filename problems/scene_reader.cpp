@@ -72,7 +72,7 @@ std::vector<int> interface_order(Deck& deck, DeckNode* list, const SceneSpec& sc
 
 void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
   const Section in = read_section(deck, node, scene_keys::numerics());
-  Numerics& n = scene.numerics;
+  MethodSpec& n = scene.numerics;
   n.cfl = in.number("cfl", n.cfl);
   n.closure = static_cast<Closure>(in.choice("closure"));
   n.quadratic_q = in.number("quadratic_q", n.quadratic_q);

@@ -2,6 +2,7 @@
 // from a deck; verification runs make it by hand. Nothing here refers to the deck any more.
 #pragma once
 
+#include "ale/scene.hpp"
 #include "materials/material.hpp"
 #include "problems/shapes.hpp"
 
@@ -11,8 +12,6 @@
 #include <vector>
 
 namespace ballast {
-
-enum class BoundaryKind { symmetry, free, wall, inflow, outflow };
 
 /// One side of the mesh. Symmetry at r = 0 is the axis.
 struct Boundary {
@@ -36,19 +35,10 @@ struct Body {
   double specific_energy = 0; ///< J/kg, from density and pressure unless the deck gives it
 };
 
-/// relax and follow are not available yet: the deck reader refuses them.
-enum class MotionPolicy { lagrangian, eulerian };
-
-struct Motion {
-  MotionPolicy policy = MotionPolicy::eulerian;
-  int remap_every = 1; ///< steps between remaps (eulerian)
-};
-
-enum class Closure { pressure_relaxation, tipton, equal_strain };
 enum class Switch { automatic, on, off };
 enum class InterfaceNormal { elvira, mixed_youngs_centred, youngs };
 
-struct Numerics {
+struct MethodSpec {
   double cfl = 0.5;
   Closure closure = Closure::pressure_relaxation;
   double quadratic_q = 1.0; ///< factor on the Kuropatenko coefficient (g+1)/4
@@ -108,7 +98,7 @@ struct SceneSpec {
   std::vector<Body> bodies;
   int background = -1; ///< material where no body is, -1: void
   Motion motion;
-  Numerics numerics;
+  MethodSpec numerics;
   std::vector<Gauge> gauges;
   Output output;
   Results results;

@@ -46,10 +46,20 @@ template <int Dim> TubeRun<Dim> make_tube(const Tube& t) {
   });
   const auto a = static_cast<std::size_t>(t.axis);
   set_velocity(b, [&](const std::array<double, Dim>& x, std::array<double, Dim>& u) {
-    u[a] = x[a] <= t.interface + 1e-12 ? t.left.velocity : t.right.velocity;
+    const double tiny = 1e-9 * h;
+    const bool between = std::abs(x[a] - t.interface) < tiny;
+    const double l = t.left.density, r = t.right.density;
+    u[a] = between ? (l * t.left.velocity + r * t.right.velocity) / (l + r)
+                   : x[a] < t.interface ? t.left.velocity : t.right.velocity;
+    for (int s = 0; t.ends && s < 2; ++s) {
+      const BoundarySide& end = (*t.ends)[static_cast<std::size_t>(s)];
+      if (end.kind == BoundaryKind::wall && std::abs(x[a] - s * t.length) < tiny) {
+        u[a] = end.velocity;
+      }
+    }
   });
-  b.boundary.side[a][0] = {BoundaryKind::wall, t.left.velocity};
-  b.boundary.side[a][1] = {BoundaryKind::wall, t.right.velocity};
+  b.boundary.side[a] = t.ends.value_or(std::array<BoundarySide, 2>{
+      BoundarySide{BoundaryKind::wall, t.left.velocity}, BoundarySide{BoundaryKind::wall, t.right.velocity}});
   run.scene.numerics = t.numerics;
   run.scene.pool = std::make_unique<ThreadPool>(t.threads);
   run.scene.blocks.push_back(std::move(b));
@@ -66,8 +76,7 @@ template <int Dim> TubeRun<Dim> run_tube(const Tube& tube) {
   return r;
 }
 
-template <int Dim> std::vector<TubeCell> profile(const TubeRun<Dim>& run, int axis) {
-  const Block<Dim>& b = run.scene.blocks[0];
+template <int Dim> std::vector<TubeCell> profile(const Block<Dim>& b, int axis) {
   const auto a = static_cast<std::size_t>(axis);
   std::vector<TubeCell> out;
   for_each_cell(b, [&](int i, int j, int k) {
@@ -76,7 +85,8 @@ template <int Dim> std::vector<TubeCell> profile(const TubeRun<Dim>& run, int ax
     const double x0 = b.position[a].row(n0)[i], x1 = b.position[a].row(n1)[i + s];
     const double u = 0.5 * (b.velocity[a].row(n0)[i] + b.velocity[a].row(n1)[i + s]);
     out.push_back({0.5 * (x0 + x1), x1 - x0, b.density.row(r)[i], u,
-                   b.pressure.row(r)[i] + b.reference_pressure, b.owner_row(r)[i] < 0});
+                   b.pressure.row(r)[i] + b.reference_pressure, b.owner_row(r)[i] < 0,
+                   b.any_strength() && axis < 2 ? b.stress[a].row(r)[i] : 0.0});
   });
   return out;
 }
@@ -148,8 +158,8 @@ template TubeRun<2> make_tube<2>(const Tube&);
 template TubeRun<3> make_tube<3>(const Tube&);
 template TubeRun<2> run_tube<2>(const Tube&);
 template TubeRun<3> run_tube<3>(const Tube&);
-template std::vector<TubeCell> profile<2>(const TubeRun<2>&, int);
-template std::vector<TubeCell> profile<3>(const TubeRun<3>&, int);
+template std::vector<TubeCell> profile<2>(const Block<2>&, int);
+template std::vector<TubeCell> profile<3>(const Block<3>&, int);
 template Conservation conservation<2>(const TubeRun<2>&);
 template Conservation conservation<3>(const TubeRun<3>&);
 

@@ -6,6 +6,7 @@
 #include "tests/exact/riemann.hpp"
 
 #include <functional>
+#include <optional>
 
 namespace ballast::verify {
 
@@ -20,6 +21,8 @@ struct Tube {
   double interface = 0.5;   ///< where left becomes right
   bool interface_in_cell = false; ///< shift the mesh so that the interface halves a cell
   int axis = 0;
+  /// What closes the tube; by default walls that move with the left and the right state.
+  std::optional<std::array<BoundarySide, 2>> ends;
   std::array<Material, 2> materials; ///< left, right; the same material twice when equal names
   TubeState left, right;
   MotionPolicy motion = MotionPolicy::lagrangian;
@@ -36,7 +39,8 @@ template <int Dim> struct TubeRun {
   Totals start, end;
 };
 
-/// Builds the block, both states filled; velocities by node (the interface node gets the mean by mass).
+/// Builds the block, both states filled; velocities by node (the interface node gets the mean by mass, the
+/// nodes of a wall the wall's).
 template <int Dim> TubeRun<Dim> make_tube(const Tube& tube);
 /// make_tube and run to the end.
 template <int Dim> TubeRun<Dim> run_tube(const Tube& tube);
@@ -45,8 +49,12 @@ template <int Dim> TubeRun<Dim> run_tube(const Tube& tube);
 struct TubeCell {
   double centre, width, density, velocity, pressure;
   bool mixed;
+  double stress = 0; ///< deviator along the tube, Pa, tension-positive; zero without strength
 };
-template <int Dim> std::vector<TubeCell> profile(const TubeRun<Dim>& run, int axis);
+template <int Dim> std::vector<TubeCell> profile(const Block<Dim>& block, int axis);
+template <int Dim> std::vector<TubeCell> profile(const TubeRun<Dim>& run, int axis) {
+  return profile(run.scene.blocks[0], axis);
+}
 
 struct TubeError {
   double density = 0, velocity = 0, pressure = 0;

@@ -1,0 +1,199 @@
+#include "problems/build_scene.hpp"
+
+#include "ale/fill.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+
+SlotMap slot_map(const SceneSpec& spec) {
+  SlotMap map;
+  map.slot.assign(spec.materials.size(), -1);
+  int next = 0;
+  for (const int m : spec.numerics.interface_order) {
+    map.slot[static_cast<std::size_t>(m)] = next++;
+  }
+  for (int& s : map.slot) {
+    s = s < 0 ? next++ : s;
+  }
+  return map;
+}
+
+namespace {
+
+Numerics method_of(const SceneSpec& spec) {
+  const MethodSpec& m = spec.numerics;
+  Numerics n;
+  n.cfl = m.cfl;
+  n.closure = m.closure;
+  n.quadratic_q = m.quadratic_q;
+  n.linear_q = m.linear_q;
+  n.hourglass = m.hourglass;
+  const bool strength = std::any_of(spec.materials.begin(), spec.materials.end(),
+                                    [](const Material& mat) { return has_strength(mat.strength); });
+  n.energy_return = m.energy_return == Switch::on || (m.energy_return == Switch::automatic && !strength);
+  n.normal = static_cast<remap::NormalMethod>(m.normal);
+  n.dt_initial = m.dt_initial;
+  n.dt_growth = m.dt_growth;
+  n.dt_max = m.dt_max;
+  n.spall = m.spall;
+  return n;
+}
+
+bool needs_void(const SceneSpec& spec) {
+  const bool spall = spec.numerics.spall && std::any_of(spec.materials.begin(), spec.materials.end(), [](const Material& m) {
+                       return std::isfinite(m.spall_pressure);
+                     });
+  const bool holes = std::any_of(spec.bodies.begin(), spec.bodies.end(), [](const Body& b) { return b.material < 0; });
+  return spec.background < 0 || spall || holes;
+}
+
+/// Momentum by node while cells are filled; velocities are its mean by mass.
+template <int Dim> struct NodeMomentum {
+  std::array<RowField, Dim> momentum;
+  RowField mass;
+};
+
+template <int Dim>
+void add_momentum(const Block<Dim>& b, int i, int j, int k, double mass, const Point& velocity, NodeMomentum<Dim>& sum) {
+  const Grid& g = b.grid;
+  const int index[3] = {i, j, k};
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    double share = mass;
+    for (int d = 0; d < Dim; ++d) {
+      const auto a = static_cast<std::size_t>(d);
+      const double low = b.low_share[a][static_cast<std::size_t>(index[d] + g.ghost[a])];
+      share *= corner >> d & 1 ? 1 - low : low;
+    }
+    const int r = g.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)), n = i + (corner & 1);
+    sum.mass.row(r)[n] += share;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      sum.momentum[d].row(r)[n] += share * velocity[d];
+    }
+  }
+}
+
+template <int Dim>
+void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
+  NodeMomentum<Dim> nodes;
+  nodes.mass = RowField::of_nodes(b.grid);
+  nodes.momentum.fill(RowField::of_nodes(b.grid));
+  std::vector<double> shares(spec.bodies.size());
+  for_each_cell(b, [&](int i, int j, int k) {
+    Point lo{}, hi{};
+    const int index[3] = {i, j, k};
+    for (int d = 0; d < Dim; ++d) {
+      const auto& line = spec.mesh_lines[static_cast<std::size_t>(d)];
+      lo[static_cast<std::size_t>(d)] = line[static_cast<std::size_t>(index[d])];
+      hi[static_cast<std::size_t>(d)] = line[static_cast<std::size_t>(index[d] + 1)];
+    }
+    body_fractions(spec, lo, hi, shares);
+    const double volume = b.volume.row(b.grid.cell_row(j, k))[i];
+    std::vector<CellPart> parts(b.materials.size());
+    double left = 1;
+    const auto add = [&](int material, double f, double density, double e, const Point& u) {
+      CellPart& p = parts[static_cast<std::size_t>(material < 0 ? static_cast<int>(b.materials.size()) - 1 : slots.slot[static_cast<std::size_t>(material)])];
+      const double mass = p.fraction * p.density + f * density;
+      p.specific_energy = mass > 0 ? (p.fraction * p.density * p.specific_energy + f * density * e) / mass : 0;
+      p.fraction += f;
+      p.density = p.fraction > 0 ? mass / p.fraction : 0;
+      if (f == p.fraction) { // the only body of its material here: bitwise its own state
+        p.density = density;
+        p.specific_energy = e;
+      }
+      if (material >= 0) {
+        add_momentum(b, i, j, k, f * density * volume, u, nodes);
+      }
+      left -= f;
+    };
+    for (std::size_t q = 0; q < spec.bodies.size(); ++q) {
+      if (shares[q] > 0) {
+        const Body& body = spec.bodies[q];
+        add(body.material, shares[q], body.density, body.specific_energy, body.velocity);
+      }
+    }
+    if (left > 1e-12) {
+      if (spec.background < 0) {
+        add(-1, left, 0, 0, {});
+      } else {
+        const Material& m = spec.materials[static_cast<std::size_t>(spec.background)];
+        add(spec.background, left, m.density, m.specific_energy, {});
+      }
+    }
+    for (std::size_t m = 0; m < parts.size(); ++m) {
+      parts[m].material = static_cast<int>(m);
+      parts[m].fraction = parts[m].fraction > 1 - 1e-12 ? 1.0 : parts[m].fraction;
+    }
+    fill_cell<Dim>(b, i, j, k, parts);
+  });
+  for (std::size_t q = 0; q < nodes.mass.data().size(); ++q) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double m = nodes.mass.data()[q];
+      b.velocity[d].data()[q] = m > 0 ? nodes.momentum[d].data()[q] / m : 0.0;
+    }
+  }
+}
+
+/// Normal velocities that boundaries prescribe hold from the start.
+template <int Dim> void apply_boundary_velocity(Block<Dim>& b) {
+  const Grid& g = b.grid;
+  for (int k = 0; k < (Dim == 3 ? g.cells[2] + 1 : 1); ++k) {
+    for (int j = 0; j <= g.cells[1]; ++j) {
+      const int index[3] = {0, j, k};
+      for (int axis = 0; axis < Dim; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        double* u = b.velocity[a].row(g.node_row(j, k));
+        for (int side = 0; side < 2; ++side) {
+          if (!b.boundary.fixes_normal_velocity(axis, side)) {
+            continue;
+          }
+          const int last = g.cells[a];
+          if (axis == 0) {
+            u[side == 0 ? 0 : last] = b.boundary.at(axis, side).velocity;
+          } else if (index[axis] == (side == 0 ? 0 : last)) {
+            std::fill(u, u + g.cells[0] + 1, b.boundary.at(axis, side).velocity);
+          }
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+
+template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
+  Scene<Dim> scene;
+  scene.title = spec.title;
+  scene.numerics = method_of(spec);
+  scene.pool = std::make_unique<ThreadPool>(threads);
+  const SlotMap slots = slot_map(spec);
+  Block<Dim> b;
+  b.axisymmetric = spec.geometry == Geometry::axisymmetric;
+  b.motion = spec.motion;
+  b.reference_pressure = spec.ambient_pressure;
+  b.materials.resize(spec.materials.size());
+  for (std::size_t m = 0; m < spec.materials.size(); ++m) {
+    b.materials[static_cast<std::size_t>(slots.slot[m])] = make_slot(spec.materials[m], spec.ambient_pressure);
+  }
+  if (needs_void(spec)) {
+    b.materials.push_back(make_void());
+  }
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Boundary& from = spec.boundaries[axis][side];
+      b.boundary.side[axis][side] = {from.kind, from.kind == BoundaryKind::inflow ? from.velocity[axis] : from.wall_velocity};
+    }
+  }
+  allocate_block(b, spec.mesh_lines);
+  fill_block(spec, slots, b);
+  apply_boundary_velocity(b);
+  scene.blocks.push_back(std::move(b));
+  prepare(scene);
+  return scene;
+}
+
+template Scene<2> build_scene<2>(const SceneSpec&, int);
+template Scene<3> build_scene<3>(const SceneSpec&, int);
+
+} // namespace ballast

@@ -1,0 +1,212 @@
+#include "problems/run_dump.hpp"
+
+#include "ale/fill.hpp"
+#include "remap/polygon.hpp"
+#include "remap/reconstruct.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+
+namespace {
+
+template <int Dim> class Dumper {
+public:
+  Dumper(const Block<Dim>& block, io::GridDump& dump) : b_(block), d_(dump), cells_(static_cast<std::size_t>(block.grid.cell_count())) {}
+
+  /// value(r, i) for every cell.
+  template <class Value> void cells(const std::string& name, Value&& value) {
+    std::vector<float> v;
+    v.reserve(cells_);
+    for_each_cell(b_, [&](int i, int j, int k) { v.push_back(static_cast<float>(value(b_.grid.cell_row(j, k), i))); });
+    d_.cell_arrays.push_back({name, 1, std::move(v)});
+  }
+  void velocity() {
+    std::vector<float> v;
+    nodes([&](int r, int i) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        v.push_back(d < Dim ? static_cast<float>(b_.velocity[d].row(r)[i]) : 0.0F);
+      }
+    });
+    d_.point_arrays.push_back({"velocity", 3, std::move(v)});
+  }
+  void points() {
+    nodes([&](int r, int i) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        d_.points.push_back(d < Dim ? b_.position[d].row(r)[i] : 0.0);
+      }
+    });
+  }
+  double speed(int r_cell, int j, int k, int i) const {
+    (void)r_cell;
+    double sum = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double u = 0;
+      for (int corner = 0; corner < (1 << Dim); ++corner) {
+        u += b_.velocity[d].row(b_.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)))[i + (corner & 1)];
+      }
+      sum += u * u / (1 << (2 * Dim));
+    }
+    return std::sqrt(sum);
+  }
+
+private:
+  template <class Visit> void nodes(Visit&& visit) {
+    const Grid& g = b_.grid;
+    for (int k = 0; k < (Dim == 3 ? g.cells[2] + 1 : 1); ++k) {
+      for (int j = 0; j <= g.cells[1]; ++j) {
+        for (int i = 0; i <= g.cells[0]; ++i) {
+          visit(g.node_row(j, k), i);
+        }
+      }
+    }
+  }
+  const Block<Dim>& b_;
+  io::GridDump& d_;
+  std::size_t cells_;
+};
+
+/// -1: void, or mixed with void (polygons cover the rest).
+template <int Dim> int drawn_material(const Block<Dim>& b, int r, int i) {
+  const int owner = b.owner_row(r)[i], hole = b.void_index();
+  if (owner >= 0) {
+    return owner == hole ? -1 : owner;
+  }
+  if (hole >= 0 && Dim == 2 && b.materials.back().store.row(field::fraction, r)[i] > 0) {
+    return -1;
+  }
+  int best = -1;
+  double most = 0;
+  for (std::size_t m = 0; m < b.materials.size(); ++m) {
+    const double f = b.materials[m].store.row(field::fraction, r)[i];
+    if (f > most) {
+      most = f;
+      best = static_cast<int>(m) == hole ? -1 : static_cast<int>(m);
+    }
+  }
+  return best;
+}
+
+void add_polygons(const Block<2>& b, remap::NormalMethod normal, io::GridDump& dump) {
+  std::vector<const TileStore*> stores;
+  for (const MaterialSlot& slot : b.materials) {
+    stores.push_back(&slot.store);
+  }
+  const int hole = b.void_index();
+  for_each_cell(b, [&](int i, int j, int) {
+    const int r = b.grid.cell_row(j, 0);
+    if (b.owner_row(r)[i] >= 0) {
+      return;
+    }
+    const auto cell = remap::reconstruct_cell<2>(b.grid, stores, normal, r, i);
+    const int n0 = b.grid.node_row(j, 0), n1 = b.grid.node_row(j + 1, 0);
+    const auto at = [&](int n, int q) { return remap::Point<2>{b.position[0].row(n)[q], b.position[1].row(n)[q]}; };
+    const remap::Quad quad = {at(n0, i), at(n0, i + 1), at(n1, i + 1), at(n1, i)};
+    for (int q = 0; q < cell.count; ++q) {
+      if (cell.present[q] == hole) {
+        continue;
+      }
+      const auto polygon = remap::material_polygon(quad, q > 0 ? &cell.planes[q - 1] : nullptr, q + 1 < cell.count ? &cell.planes[q] : nullptr);
+      if (polygon.count < 3) {
+        continue;
+      }
+      for (int p = 0; p < polygon.count; ++p) {
+        const auto& point = polygon.points[static_cast<std::size_t>(p)];
+        dump.material_polygons.points.insert(dump.material_polygons.points.end(), {point[0], point[1], 0.0});
+      }
+      dump.material_polygons.sizes.push_back(polygon.count);
+      dump.material_polygons.material.push_back(cell.present[q]);
+    }
+  });
+}
+
+void add_polygons(const Block<3>&, remap::NormalMethod, io::GridDump&) {}
+
+} // namespace
+
+template <int Dim>
+io::GridDump dump_block(const Block<Dim>& b, remap::NormalMethod normal, const std::vector<std::string>& fields) {
+  io::GridDump dump;
+  dump.block = b.name;
+  dump.geometry = Dim == 3 ? "3d" : b.axisymmetric ? "axisymmetric" : "planar";
+  dump.cells = {b.grid.cells[0], b.grid.cells[1], Dim == 3 ? b.grid.cells[2] : 0};
+  Dumper<Dim> out(b, dump);
+  out.points();
+  for (const MaterialSlot& slot : b.materials) {
+    if (!slot.is_void) {
+      dump.material_names.push_back(slot.material.name);
+    }
+  }
+  out.cells("material", [&](int r, int i) { return drawn_material(b, r, i); });
+  out.cells("pressure", [&](int r, int i) {
+    return b.owner_row(r)[i] == b.void_index() && b.void_index() >= 0 ? 0.0 : b.pressure.row(r)[i] + b.reference_pressure;
+  });
+  {
+    std::vector<float> v;
+    for_each_cell(b, [&](int i, int j, int k) { v.push_back(static_cast<float>(out.speed(0, j, k, i))); });
+    dump.cell_arrays.push_back({"speed", 1, std::move(v)});
+  }
+  const auto wanted = [&](const char* name) { return std::find(fields.begin(), fields.end(), name) != fields.end(); };
+  if (wanted("velocity")) {
+    out.velocity();
+  }
+  if (wanted("density")) {
+    out.cells("density", [&](int r, int i) { return b.density.row(r)[i]; });
+  }
+  if (wanted("sound_speed")) {
+    out.cells("sound_speed", [&](int r, int i) { return b.wave_speed.row(r)[i]; });
+  }
+  if (wanted("volume_fraction")) {
+    for (const MaterialSlot& slot : b.materials) {
+      out.cells("volume_fraction_" + slot.material.name, [&](int r, int i) { return slot.store.row(field::fraction, r)[i]; });
+    }
+  }
+  if (wanted("specific_energy")) {
+    out.cells("specific_energy", [&](int r, int i) {
+      double mass = 0, e = 0;
+      for (const MaterialSlot& slot : b.materials) {
+        if (!slot.is_void) {
+          mass += slot.store.row(field::mass, r)[i];
+          e += slot.store.row(field::mass, r)[i] * slot.store.row(field::energy, r)[i];
+        }
+      }
+      return mass > 0 ? e / mass : 0.0;
+    });
+  }
+  if (wanted("plastic_strain")) {
+    out.cells("plastic_strain", [&](int r, int i) {
+      double sum = 0;
+      for (const MaterialSlot& slot : b.materials) {
+        sum += slot.strength ? slot.store.row(field::fraction, r)[i] * slot.store.row(field::plastic_strain<Dim>, r)[i] : 0.0;
+      }
+      return sum;
+    });
+  }
+  if (wanted("deviatoric_stress") && b.any_strength()) {
+    out.cells("equivalent_stress", [&](int r, int i) {
+      const double xx = b.stress[0].row(r)[i], yy = b.stress[1].row(r)[i];
+      double shear = 0;
+      for (std::size_t a = 2; a < b.stress.size(); ++a) {
+        shear += b.stress[a].row(r)[i] * b.stress[a].row(r)[i];
+      }
+      return std::sqrt(1.5 * (xx * xx + yy * yy + (xx + yy) * (xx + yy) + 2 * shear));
+    });
+  }
+  if (wanted("viscosity")) {
+    out.cells("viscosity", [&](int r, int i) {
+      double q = 0;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        q = std::max(q, b.viscosity[d].row(r)[i]);
+      }
+      return q;
+    });
+  }
+  add_polygons(b, normal, dump);
+  return dump;
+}
+
+template io::GridDump dump_block<2>(const Block<2>&, remap::NormalMethod, const std::vector<std::string>&);
+template io::GridDump dump_block<3>(const Block<3>&, remap::NormalMethod, const std::vector<std::string>&);
+
+} // namespace ballast

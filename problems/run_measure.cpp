@@ -1,0 +1,161 @@
+#include "problems/run_measure.hpp"
+
+#include "ale/fill.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ballast {
+
+namespace {
+
+template <int Dim>
+double node_mean(const Block<Dim>& b, const std::array<RowField, Dim>& f, std::size_t d, int i, int j, int k) {
+  double sum = 0;
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    sum += f[d].row(b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)))[i + (corner & 1)];
+  }
+  return sum / (1 << Dim);
+}
+
+/// Low and high position of a cell along an axis (means of its faces' nodes).
+template <int Dim> std::array<double, 2> cell_range(const Block<Dim>& b, int axis, int i, int j, int k) {
+  std::array<double, 2> x = {0, 0};
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    const double at = b.position[static_cast<std::size_t>(axis)].row(
+        b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)))[i + (corner & 1)];
+    x[static_cast<std::size_t>(corner >> axis & 1)] += at / (1 << (Dim - 1));
+  }
+  return x;
+}
+
+} // namespace
+
+template <int Dim>
+BodyMeasure measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, double direction) {
+  BodyMeasure m;
+  double low = std::numeric_limits<double>::infinity(), high = -low, momentum = 0;
+  for_each_cell(b, [&](int i, int j, int k) {
+    const int r = b.grid.cell_row(j, k);
+    double mass = 0, f = 0;
+    for (const int s : slots) {
+      const MaterialSlot& slot = b.materials[static_cast<std::size_t>(s)];
+      mass += slot.store.row(field::mass, r)[i];
+      f += slot.store.row(field::fraction, r)[i];
+    }
+    if (f <= 0) {
+      return;
+    }
+    m.mass += mass;
+    momentum += mass * node_mean<Dim>(b, b.velocity, static_cast<std::size_t>(axis), i, j, k);
+    if (f >= 0.5) {
+      const auto x = cell_range(b, axis, i, j, k);
+      low = std::min(low, x[1] - f * (x[1] - x[0]));
+      high = std::max(high, x[0] + f * (x[1] - x[0]));
+      for (int other = 0; other < Dim; ++other) {
+        if (other != axis) {
+          const auto y = cell_range(b, other, i, j, k);
+          m.radius = std::max(m.radius, std::abs(y[0] + f * (y[1] - y[0])));
+        }
+      }
+    }
+  });
+  m.velocity = m.mass > 0 ? direction * momentum / m.mass : 0;
+  m.front = direction > 0 ? high : low;
+  m.rear = direction > 0 ? low : high;
+  return m;
+}
+
+template <int Dim>
+double cavity_radius(const Block<Dim>& b, int target, int axis, double from, double direction, double until) {
+  const Grid& g = b.grid;
+  const TileStore& store = b.materials[static_cast<std::size_t>(target)].store;
+  double largest = 0;
+  const int last = g.cells[static_cast<std::size_t>(axis)];
+  for (int q = 0; q < last; ++q) {
+    const int j = axis == 1 ? q : 0, k = axis == 2 ? q : 0;
+    if (axis == 0) {
+      return 0; // a shot along i has no rows across it here
+    }
+    const auto x = cell_range(b, axis, 0, j, k);
+    const double middle = 0.5 * (x[0] + x[1]);
+    if ((middle - from) * direction < 0 || (middle - until) * direction > 0) {
+      continue;
+    }
+    const double* f = store.row(field::fraction, g.cell_row(j, k));
+    double area = 0, length = 0;
+    for (int i = 0; i < g.cells[0] && f[i] < 0.999; ++i) {
+      const auto r = cell_range(b, 0, i, j, k);
+      area += (1 - f[i]) * (r[1] * r[1] - r[0] * r[0]);
+      length += (1 - f[i]) * (r[1] - r[0]);
+    }
+    largest = std::max(largest, b.axisymmetric ? std::sqrt(area) : length);
+  }
+  return largest;
+}
+
+template <int Dim> std::array<int, 3> find_cell(const Block<Dim>& b, const std::array<double, 3>& at) {
+  const Grid& g = b.grid;
+  std::array<int, 3> cell = {0, 0, 0};
+  if (b.motion.policy == MotionPolicy::eulerian) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      int c = 0;
+      while (c + 1 < g.cells[a]) {
+        const int j = axis == 1 ? c + 1 : 0, k = axis == 2 ? c + 1 : 0;
+        if (b.target[a].row(g.node_row(j, k))[axis == 0 ? c + 1 : 0] > at[a]) {
+          break;
+        }
+        ++c;
+      }
+      cell[a] = c;
+    }
+    return cell;
+  }
+  double best = std::numeric_limits<double>::infinity();
+  for_each_cell(b, [&](int i, int j, int k) {
+    double distance = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double dx = node_mean<Dim>(b, b.position, d, i, j, k) - at[d];
+      distance += dx * dx;
+    }
+    if (distance < best) {
+      best = distance;
+      cell = {i, j, k};
+    }
+  });
+  return cell;
+}
+
+template <int Dim>
+std::array<double, 3> velocity_at(const Block<Dim>& b, const std::array<int, 3>& cell, const std::array<double, 3>& at) {
+  std::array<double, 3> u{};
+  double part[3] = {};
+  for (int d = 0; d < Dim; ++d) {
+    const auto x = cell_range(b, d, cell[0], cell[1], cell[2]);
+    part[d] = std::clamp((at[static_cast<std::size_t>(d)] - x[0]) / (x[1] - x[0]), 0.0, 1.0);
+  }
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    double w = 1;
+    for (int d = 0; d < Dim; ++d) {
+      w *= corner >> d & 1 ? part[d] : 1 - part[d];
+    }
+    const int r = b.grid.node_row(cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2 & 1));
+    for (std::size_t d = 0; d < Dim; ++d) {
+      u[d] += w * b.velocity[d].row(r)[cell[0] + (corner & 1)];
+    }
+  }
+  return u;
+}
+
+template BodyMeasure measure_body<2>(const Block<2>&, const std::vector<int>&, int, double);
+template BodyMeasure measure_body<3>(const Block<3>&, const std::vector<int>&, int, double);
+template double cavity_radius<2>(const Block<2>&, int, int, double, double, double);
+template double cavity_radius<3>(const Block<3>&, int, int, double, double, double);
+template std::array<int, 3> find_cell<2>(const Block<2>&, const std::array<double, 3>&);
+template std::array<int, 3> find_cell<3>(const Block<3>&, const std::array<double, 3>&);
+template std::array<double, 3> velocity_at<2>(const Block<2>&, const std::array<int, 3>&, const std::array<double, 3>&);
+template std::array<double, 3> velocity_at<3>(const Block<3>&, const std::array<int, 3>&, const std::array<double, 3>&);
+
+} // namespace ballast
