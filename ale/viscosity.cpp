@@ -144,13 +144,15 @@ void viscosity_row(int count,
                    const double* length,
                    const double* density,
                    const double* wave_speed,
+                   const double* modulus,
                    double* viscosity,
                    double* dt) {
 #pragma omp simd
   for (int i = 0; i < count; ++i) {
     const double e = here[i];
     const double sound = wave_speed[i];
-    const double jump = e < 0 ? -e * length[i] * (1 - limiter(e, below[i], above[i])) : 0.0;
+    // A cell with void has no stiffness (modulus 0): the void absorbs the closing, nothing to smear.
+    const double jump = e < 0 && modulus[i] > 0 ? -e * length[i] * (1 - limiter(e, below[i], above[i])) : 0.0;
     const double a = c.quadratic * jump, lin = c.linear * sound;
     const double speed = a + std::sqrt(a * a + lin * lin);
     const double active = jump > 0 ? speed : 0.0;
@@ -191,7 +193,7 @@ template <int Dim> DtLimit stable_dt(Scene<Dim>& scene) {
             const RowField& e = b.strain_rate[d];
             const int stride = g.cell_row_stride(static_cast<int>(d)), step = d == 0 ? 1 : 0;
             viscosity_row(g.cells[0], c, e.row(r - stride) - step, e.row(r), e.row(r + stride) + step,
-                          b.length[d].row(r), b.density.row(r), b.wave_speed.row(r),
+                          b.length[d].row(r), b.density.row(r), b.wave_speed.row(r), b.modulus.row(r),
                           b.viscosity[d].row(r), dt.data());
           }
           const auto low = std::min_element(dt.begin(), dt.end());

@@ -51,7 +51,7 @@ std::string line_of(const std::string& text, int line) {
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
   const std::string wanted = lower(word);
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+  std::size_t best_distance = (word.size() < 4 ? 1 : std::max<std::size_t>(2, word.size() / 3)) + 1;
   for (const std::string& candidate : known) {
     const std::size_t d = edit_distance(wanted, lower(candidate));
     if (d < best_distance) {

@@ -58,15 +58,15 @@ PlasticIncrement plastic_increment(const JohnsonCook& m, const FlowState& s, dou
     return {0.0};
   }
   // r(d) = trial - 3 G d - sigma_y(d) falls from > 0 at 0 to <= 0 at trial/3G: regula falsi with the
-  // Illinois weight, bisected when slow. B ep^n has an infinite slope at 0, so Newton is not safe.
+  // Illinois weight, bisected every fourth time. B ep^n has an infinite slope at 0, so Newton is not safe.
   double low = 0, high = trial / (3 * m.shear_modulus);
   double r_low = trial - flow_stress(m, s, 0);
   double r_high = -flow_stress(m, s, high);
-  const double tolerance = 1e-12 * trial;
-  double d = low;
-  for (int it = 1; it <= 60; ++it) {
-    d = (it % 8 == 0 || r_high == r_low) ? 0.5 * (low + high)
-                                         : (low * r_high - high * r_low) / (r_high - r_low);
+  const double tolerance = 1e-11 * trial;
+  int side = 0;
+  double d = high;
+  for (int it = 1; it <= 100; ++it) {
+    d = it % 4 == 0 ? 0.5 * (low + high) : (low * r_high - high * r_low) / (r_high - r_low);
     const double r = trial - 3 * m.shear_modulus * d - flow_stress(m, s, d);
     if (std::abs(r) <= tolerance || high - low <= 1e-15 * high) {
       return {d, true, it};
@@ -74,14 +74,16 @@ PlasticIncrement plastic_increment(const JohnsonCook& m, const FlowState& s, dou
     if (r > 0) {
       low = d;
       r_low = r;
-      r_high *= 0.5;
+      r_high *= side == 1 ? 0.5 : 1.0;
+      side = 1;
     } else {
       high = d;
       r_high = r;
-      r_low *= 0.5;
+      r_low *= side == -1 ? 0.5 : 1.0;
+      side = -1;
     }
   }
-  return {d, false, 60};
+  return {d, false, 100};
 }
 
 } // namespace ballast

@@ -121,7 +121,10 @@ template <int Dim> std::vector<std::string> RunSession<Dim>::columns() const {
   }
   for (const Gauge& g : spec_.gauges) {
     for (const std::string& q : g.record) {
-      const std::string name = "gauge " + g.name + ": ";
+      std::string name = "gauge " + g.name + ": ";
+      for (char& letter : name) {
+        letter = letter == ',' || letter == '"' || letter == '\n' ? ' ' : letter; // they end a CSV field
+      }
       if (q == "velocity" || q == "position" || q == "acceleration") {
         for (int d = 0; d < Dim; ++d) {
           c.push_back(fmt::format("{}{}_{} [{}]", name, q, axes[d], q == "velocity" ? "m/s" : q == "position" ? "m" : "m/s2"));

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <sstream>
+#include <sys/wait.h>
 
 namespace ballast {
 namespace {
@@ -86,6 +86,26 @@ TEST(BadDecks, AllErrorsComeInOnePass) {
   read_scene(deck);
   EXPECT_EQ(deck.errors().size(), 5u)
       << deck.error_report(); // geometry, end_time, titel, cfl, no mesh
+}
+
+/// The program itself, where it has been built beside the tests.
+TEST(BadDecks, TheProgramExitsWith2AndWritesNothing) {
+  const fs::path program =
+      fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "ballast";
+  if (!fs::exists(program)) {
+    GTEST_SKIP() << program << " is not built";
+  }
+  const fs::path out = fs::temp_directory_path() / "ballast_bad_deck_out";
+  fs::remove_all(out);
+  for (const fs::path& path : bad_decks()) {
+    for (const std::string& word : {std::string("check"), "run --out " + out.string()}) {
+      const std::string command =
+          program.string() + " " + word + " " + path.string() + " > /dev/null 2>&1";
+      const int raw = std::system(command.c_str());
+      EXPECT_EQ(WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, 2) << command;
+      EXPECT_FALSE(fs::exists(out)) << command;
+    }
+  }
 }
 
 } // namespace

@@ -38,6 +38,10 @@ void noh(VerifyReport& r) {
   r.set_cells(n);
 }
 
+/// The exact solution has a cold gas ahead. Here it holds 1e-8 of the energy behind the shock, so that
+/// round-off of the work cannot make it negative (no step has a floor).
+constexpr double ambient_energy = 1e-9;
+
 template <int Dim> Scene<Dim> blast(int n, double box, double corner_energy, MotionPolicy motion) {
   Scene<Dim> scene;
   Block<Dim> b;
@@ -56,7 +60,7 @@ template <int Dim> Scene<Dim> blast(int n, double box, double corner_energy, Mot
   allocate_block(b, lines);
   const double cell = std::pow(box / n, Dim);
   for_each_cell(b, [&](int i, int j, int k) {
-    const double e = i + j + k == 0 ? corner_energy / cell : 0.0;
+    const double e = i + j + k == 0 ? corner_energy / cell : ambient_energy;
     fill_cell<Dim>(b, i, j, k, std::vector<CellPart>{{0, 1, 1, e}});
   });
   scene.blocks.push_back(std::move(b));
