@@ -453,6 +453,9 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
     }
     b.volume.swap(b.next_volume);
     update_state(b, *scene.pool);
+    if (scene.numerics.spall) {
+      scene.ledger.spalled_cells += open_voids(b, *scene.pool);
+    }
   }
 }
 

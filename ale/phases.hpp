@@ -10,6 +10,10 @@ namespace ballast {
 /// sound speed squared is negative or a value is not finite.
 template <int Dim> void update_state(Block<Dim>& block, ThreadPool& pool);
 
+/// Spall: void opens where a material's pressure is below its spall pressure, so that the cell goes back
+/// to zero pressure. Returns the number of cells.
+template <int Dim> long open_voids(Block<Dim>& block, ThreadPool& pool);
+
 /// Strain rates, lengths and viscosity along the logical axes, and the largest stable step.
 template <int Dim> DtLimit stable_dt(Scene<Dim>& scene);
 

@@ -136,7 +136,91 @@ template <int Dim> BadCell check_row(const Block<Dim>& b, int j, int k) {
   return {};
 }
 
+/// Material of the cell that has failed in tension, or -1. Cells with void are not in tension.
+template <int Dim> int failed_material(const Block<Dim>& b, int r, int i) {
+  const int owner = b.owner_row(r)[i], hole = b.void_index();
+  if (owner == hole) {
+    return -1;
+  }
+  const auto fails = [&](std::size_t m) {
+    const MaterialSlot& slot = b.materials[m];
+    return slot.store.row(field::fraction, r)[i] > 0 &&
+           slot.store.row(slot.pressure_field(), r)[i] + b.reference_pressure < slot.material.spall_pressure;
+  };
+  if (owner >= 0) {
+    return fails(static_cast<std::size_t>(owner)) ? owner : -1;
+  }
+  if (b.materials[static_cast<std::size_t>(hole)].store.row(field::fraction, r)[i] > 0) {
+    return -1;
+  }
+  for (std::size_t m = 0; m + 1 < b.materials.size(); ++m) {
+    if (fails(m)) {
+      return static_cast<int>(m);
+    }
+  }
+  return -1;
+}
+
+/// Every material in tension in the cell goes back to zero pressure; void takes the room it leaves.
+template <int Dim> void open_void(Block<Dim>& b, int r, int i) {
+  double left = 1;
+  for (std::size_t m = 0; m + 1 < b.materials.size(); ++m) {
+    MaterialSlot& slot = b.materials[m];
+    const double f = std::as_const(slot.store).row(field::fraction, r)[i];
+    if (f <= 0) {
+      continue;
+    }
+    const double p = std::as_const(slot.store).row(slot.pressure_field(), r)[i] + b.reference_pressure;
+    const double k = std::as_const(slot.store).row(slot.modulus_field(), r)[i];
+    const double next = p < 0 ? f * (1 - std::min(0.5, -p / k)) : f;
+    slot.store.row(field::fraction, r)[i] = next;
+    left -= next;
+  }
+  b.materials.back().store.row(field::fraction, r)[i] = left;
+}
+
 } // namespace
+
+template <int Dim> long open_voids(Block<Dim>& b, ThreadPool& pool) {
+  const bool any = std::any_of(b.materials.begin(), b.materials.end(),
+                               [](const MaterialSlot& s) { return std::isfinite(s.material.spall_pressure); });
+  if (!any || b.void_index() < 0) {
+    return 0;
+  }
+  const Grid& g = b.grid;
+  std::vector<std::vector<int>> failed(static_cast<std::size_t>(g.slabs() * g.rows_per_slab()));
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        const int r = g.cell_row(j, k);
+        const double* p = b.pressure.row(r);
+        for (int i = 0; i < g.cells[0]; ++i) {
+          if (p[i] + b.reference_pressure < 0 && failed_material(b, r, i) >= 0) {
+            failed[static_cast<std::size_t>(s * g.rows_per_slab() + q)].push_back(i);
+          }
+        }
+      }
+    }
+  });
+  long count = 0;
+  std::vector<double> rho(1);
+  for (int s = 0; s < g.slabs(); ++s) {
+    for (int q = 0; q < g.rows_per_slab(); ++q) {
+      const auto& cells = failed[static_cast<std::size_t>(s * g.rows_per_slab() + q)];
+      const auto [j, k] = g.in_slab(s, q);
+      const int r = g.cell_row(j, k);
+      for (const int i : cells) {
+        b.materials.back().store.allocate(b.materials.back().store.tile_of(r));
+        open_void(b, r, i);
+        b.owner_row(r)[i] = mixed_cell;
+        mixed_state(b, r, i, rho);
+      }
+      count += static_cast<long>(cells.size());
+    }
+  }
+  return count;
+}
 
 template <int Dim> void update_state(Block<Dim>& b, ThreadPool& pool) {
   const Grid& g = b.grid;
@@ -223,6 +307,8 @@ template <int Dim> Totals totals(const Block<Dim>& b) {
 
 template void update_state<2>(Block<2>&, ThreadPool&);
 template void update_state<3>(Block<3>&, ThreadPool&);
+template long open_voids<2>(Block<2>&, ThreadPool&);
+template long open_voids<3>(Block<3>&, ThreadPool&);
 template Totals totals<2>(const Block<2>&);
 template Totals totals<3>(const Block<3>&);
 

