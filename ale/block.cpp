@@ -80,10 +80,11 @@ void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lin
     slot.strength = !slot.is_void && has_strength(slot.material.strength);
     strength = strength || slot.strength;
     const int conserved = slot.is_void ? 1 : 3 + (slot.strength ? stress_components<Dim> + 1 : 0);
-    slot.store = TileStore(g, rows_per_tile, conserved, slot.is_void ? 0 : 2);
+    slot.store = TileStore(g, rows_per_tile, conserved, slot.is_void ? 0 : slot.strength ? 3 : 2);
   }
   if (strength) {
     b.stress.fill(RowField::of_cells(g));
+    b.shear = b.flow_stress = RowField::of_cells(g);
   }
   for (int k = 0; k < g.cells[2]; ++k) {
     for (int j = 0; j < g.cells[1]; ++j) {

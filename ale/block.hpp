@@ -39,6 +39,7 @@ struct MaterialSlot {
 
   int pressure_field() const { return store.conserved(); }
   int modulus_field() const { return store.conserved() + 1; }
+  int flow_stress_field() const { return store.conserved() + 2; } ///< with strength only
 };
 
 enum class MotionPolicy { lagrangian, eulerian };
@@ -71,6 +72,7 @@ template <int Dim> struct Block {
   RowField volume, next_volume;
   RowField density, pressure, modulus, wave_speed; ///< of the whole cell
   std::array<RowField, stress_components<Dim>> stress; ///< empty unless a material has strength
+  RowField shear, flow_stress; ///< of the cell: sum of fraction x shear modulus, x flow stress; likewise
   std::array<RowField, Dim> strain_rate, length, viscosity; ///< along each logical axis
   std::array<RowField, Dim> swept, mass_flux;               ///< faces, at the cell above them
   std::vector<std::int8_t> owner; ///< the only material of a cell, or mixed_cell

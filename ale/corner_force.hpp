@@ -3,7 +3,10 @@
 // work pass, so the work is done by bitwise the same forces.
 //
 // In RZ: F_r = -(s_rr A_r + s_rz A_z + s_tt H) with S_r = A_r + H, F_z = -(s_rz A_r + s_zz A_z).
-// Viscosity acts along the normals n_d of the cell's mid surfaces: sigma = -sum q_d n_d n_d^T.
+// The deviator is carried to the half step too, s + G dt dev(D), and cut back to the flow stress: with the
+// stress of the start of the step the scheme would be (weakly) unstable for elastic waves.
+// Viscosity acts along the cell's mid lines t_d: sigma = -sum q_d t_d t_d^T. (Along the normals of the mid
+// surfaces a flat, sheared cell would feel its long axis' viscosity across its short one: unstable.)
 // Hourglass: Flanagan-Belytschko, viscous, on the modes that a linear velocity field does not excite.
 #pragma once
 
@@ -18,6 +21,7 @@ template <int Dim> struct ForceRows {
   const double* u[Dim][lines];
   const double *pressure, *modulus, *volume, *density, *wave_speed;
   const double* stress[stress_components<Dim>]; ///< null without strength
+  const double *shear, *flow_stress; ///< null without strength
   const double* viscosity[Dim];
 
   ForceRows(const Block<Dim>& block, int j, int k);

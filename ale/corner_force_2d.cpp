@@ -24,6 +24,8 @@ template <> ForceRows<2>::ForceRows(const Block<2>& b, int j, int k) {
   for (std::size_t s = 0; s < 3; ++s) {
     stress[s] = b.any_strength() ? b.stress[s].row(r) : nullptr;
   }
+  shear = b.any_strength() ? b.shear.row(r) : nullptr;
+  flow_stress = b.any_strength() ? b.flow_stress.row(r) : nullptr;
 }
 
 namespace {
@@ -52,20 +54,37 @@ half_step(const ForceRows<2>& in, const ForceCoefficients& c, int i, HalfStepQua
   h.compression = (h.volume - in.volume[i]) / in.volume[i];
   const double p_half = in.pressure[i] - in.modulus[i] * h.compression;
 
-  // Normals of the mid surfaces: n0 across the i direction, n1 across j.
+  // Directions of the mid lines: t0 along i, t1 along j.
   const double t0x = q.x[1] + q.x[2] - q.x[0] - q.x[3], t0y = q.y[1] + q.y[2] - q.y[0] - q.y[3];
   const double t1x = q.x[3] + q.x[2] - q.x[0] - q.x[1], t1y = q.y[3] + q.y[2] - q.y[0] - q.y[1];
-  const double q0 = in.viscosity[0][i] / (t1x * t1x + t1y * t1y);
-  const double q1 = in.viscosity[1][i] / (t0x * t0x + t0y * t0y);
-  double xx = -p_half - q0 * t1y * t1y - q1 * t0y * t0y;
-  double yy = -p_half - q0 * t1x * t1x - q1 * t0x * t0x;
-  double xy = q0 * t1x * t1y + q1 * t0x * t0y;
+  const double q0 = in.viscosity[0][i] / (t0x * t0x + t0y * t0y);
+  const double q1 = in.viscosity[1][i] / (t1x * t1x + t1y * t1y);
+  double xx = -p_half - q0 * t0x * t0x - q1 * t1x * t1x;
+  double yy = -p_half - q0 * t0y * t0y - q1 * t1y * t1y;
+  double xy = -q0 * t0x * t0y - q1 * t1x * t1y;
   double tt = -p_half;
   if constexpr (Strength) {
-    xx += in.stress[0][i];
-    yy += in.stress[1][i];
-    xy += in.stress[2][i];
-    tt -= in.stress[0][i] + in.stress[1][i];
+    double gxx = 0, gxy = 0, gyy = 0, gtt = 0;
+#pragma GCC unroll 4
+    for (int p = 0; p < 4; ++p) {
+      const double ax = Axisymmetric ? h.sx[p] - h.hoop[p] : h.sx[p];
+      gxx += ux[p] * ax;
+      gxy += ux[p] * h.sy[p] + uy[p] * ax;
+      gyy += uy[p] * h.sy[p];
+      if constexpr (Axisymmetric) {
+        gtt += ux[p] * h.hoop[p];
+      }
+    }
+    const double mean = (gxx + gyy + gtt) / 3, g = in.shear[i] * c.dt / h.volume;
+    const double sxx = in.stress[0][i] + g * (gxx - mean), syy = in.stress[1][i] + g * (gyy - mean);
+    const double sxy = in.stress[2][i] + 0.5 * g * gxy;
+    const double squared = 3 * (sxx * sxx + syy * syy + sxx * syy + sxy * sxy); // of the equivalent stress
+    const double flow = in.flow_stress[i];
+    const double cut = squared > flow * flow ? flow / std::sqrt(squared) : 1.0;
+    xx += cut * sxx;
+    yy += cut * syy;
+    xy += cut * sxy;
+    tt -= cut * (sxx + syy);
   }
   // Hourglass mode Gamma = (1, -1, 1, -1), orthogonal to linear fields by the planar gradient.
   const double area = q.area();
@@ -80,8 +99,9 @@ half_step(const ForceRows<2>& in, const ForceCoefficients& c, int i, HalfStepQua
     hx += gamma[p] * ux[p];
     hy += gamma[p] * uy[p];
   }
+  // A mode decays at drag |Gamma|^2 / corner mass = 64 * hourglass c/L in 3D; four corners give 16, hence 4.
   const double drag =
-      c.hourglass * in.density[i] * in.wave_speed[i] * in.volume[i] / std::sqrt(area);
+      4 * c.hourglass * in.density[i] * in.wave_speed[i] * in.volume[i] / std::sqrt(area);
 #pragma GCC unroll 4
   for (int p = 0; p < 4; ++p) {
     const double ax = Axisymmetric ? h.sx[p] - h.hoop[p] : h.sx[p];

@@ -24,6 +24,8 @@ template <> ForceRows<3>::ForceRows(const Block<3>& b, int j, int k) {
   for (std::size_t s = 0; s < 5; ++s) {
     stress[s] = b.any_strength() ? b.stress[s].row(r) : nullptr;
   }
+  shear = b.any_strength() ? b.shear.row(r) : nullptr;
+  flow_stress = b.any_strength() ? b.flow_stress.row(r) : nullptr;
 }
 
 namespace {
@@ -36,7 +38,7 @@ struct HalfStepHex {
   double volume, compression;
 };
 
-/// Mid-surface area vector of an axis: cross product of the two mid lines in it (times 1/16 of the sums).
+/// Four times the mid line of an axis: from the centre of its low to that of its high face.
 struct MidLine {
   double x, y, z;
 };
@@ -50,10 +52,6 @@ struct MidLine {
   }
   return t;
 }
-[[gnu::always_inline]] inline MidLine cross(const MidLine& a, const MidLine& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 template <bool Strength>
 [[gnu::always_inline]] inline void
 half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex& h) {
@@ -79,10 +77,10 @@ half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex
   const MidLine t0 = mid_line(g, {1, 2, 5, 6}, {0, 3, 4, 7});
   const MidLine t1 = mid_line(g, {3, 2, 7, 6}, {0, 1, 4, 5});
   const MidLine t2 = mid_line(g, {4, 5, 6, 7}, {0, 1, 2, 3});
-  const MidLine area[3] = {cross(t1, t2), cross(t2, t0), cross(t0, t1)};
+  const MidLine direction[3] = {t0, t1, t2};
 #pragma GCC unroll 3
   for (int d = 0; d < 3; ++d) {
-    const MidLine& a = area[d];
+    const MidLine& a = direction[d];
     const double q = in.viscosity[d][i] / (a.x * a.x + a.y * a.y + a.z * a.z);
     xx -= q * a.x * a.x;
     yy -= q * a.y * a.y;
@@ -92,12 +90,29 @@ half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex
     xz -= q * a.x * a.z;
   }
   if constexpr (Strength) {
-    xx += in.stress[0][i];
-    yy += in.stress[1][i];
-    zz -= in.stress[0][i] + in.stress[1][i];
-    xy += in.stress[2][i];
-    yz += in.stress[3][i];
-    xz += in.stress[4][i];
+    double gxx = 0, gyy = 0, gzz = 0, gxy = 0, gyz = 0, gxz = 0;
+#pragma GCC unroll 8
+    for (int p = 0; p < 8; ++p) {
+      gxx += ux[p] * h.sx[p];
+      gyy += uy[p] * h.sy[p];
+      gzz += uz[p] * h.sz[p];
+      gxy += ux[p] * h.sy[p] + uy[p] * h.sx[p];
+      gyz += uy[p] * h.sz[p] + uz[p] * h.sy[p];
+      gxz += ux[p] * h.sz[p] + uz[p] * h.sx[p];
+    }
+    const double mean = (gxx + gyy + gzz) / 3, gm = in.shear[i] * c.dt / h.volume;
+    const double sxx = in.stress[0][i] + gm * (gxx - mean), syy = in.stress[1][i] + gm * (gyy - mean);
+    const double sxy = in.stress[2][i] + 0.5 * gm * gxy, syz = in.stress[3][i] + 0.5 * gm * gyz;
+    const double sxz = in.stress[4][i] + 0.5 * gm * gxz;
+    const double squared = 3 * (sxx * sxx + syy * syy + sxx * syy + sxy * sxy + syz * syz + sxz * sxz);
+    const double flow = in.flow_stress[i];
+    const double cut = squared > flow * flow ? flow / std::sqrt(squared) : 1.0;
+    xx += cut * sxx;
+    yy += cut * syy;
+    zz -= cut * (sxx + syy);
+    xy += cut * sxy;
+    yz += cut * syz;
+    xz += cut * sxz;
   }
 #pragma GCC unroll 8
   for (int p = 0; p < 8; ++p) {

@@ -236,6 +236,7 @@ StressRows<Dim> stress_rows(MaterialSlot& slot, int r, int at, const WorkRows<Di
     s.stress[a] = slot.store.row(field::stress + a, r) + at;
   }
   s.plastic_strain = slot.store.row(field::plastic_strain<Dim>, r) + at;
+  s.flow_stress = slot.store.row(slot.flow_stress_field(), r) + at;
   s.energy = slot.store.row(field::energy, r) + at;
   for (int q = 0; w && q < WorkRows<Dim>::gradient_components; ++q) {
     s.gradient[q] = w->gradient[q] + at;

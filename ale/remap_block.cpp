@@ -41,30 +41,6 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
   return m;
 }
 
-template <int Dim> void yield_again(Block<Dim>& b, ThreadPool& pool) {
-  const Grid& g = b.grid;
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
-    for (int s = begin; s < end; ++s) {
-      for (int q = 0; q < g.rows_per_slab(); ++q) {
-        const auto [j, k] = g.in_slab(s, q);
-        const int r = g.cell_row(j, k);
-        for (MaterialSlot& slot : b.materials) {
-          if (!slot.strength || !slot.store.has_row(r)) {
-            continue;
-          }
-          StressRows<Dim> rows{};
-          for (int a = 0; a < stress_components<Dim>; ++a) {
-            rows.stress[a] = slot.store.row(field::stress + a, r);
-          }
-          rows.plastic_strain = slot.store.row(field::plastic_strain<Dim>, r);
-          rows.energy = slot.store.row(field::energy, r);
-          pull_back_to_yield<Dim>(slot.material, g.cells[0], rows);
-        }
-      }
-    }
-  });
-}
-
 /// Nodes without mass rest: nothing there moves.
 template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
   const auto& mass = b.node_mass.data();
@@ -90,7 +66,7 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   compute_node_mass(b);
   rest_massless_nodes(b);
   if (b.any_strength()) {
-    yield_again(b, *scene.pool);
+    pull_back_to_yield(b, *scene.pool);
   }
   update_state(b, *scene.pool);
   Ledger& l = scene.ledger;

@@ -1,5 +1,7 @@
 #include "ale/simulation.hpp"
 
+#include "ale/strength_update.hpp"
+
 #include <algorithm>
 
 namespace ballast {
@@ -60,6 +62,7 @@ template <int Dim> void prepare(Scene<Dim>& scene) {
     for (std::size_t d = 0; d < Dim; ++d) {
       exchange_nodes(b.grid, b.boundary, static_cast<int>(d), b.velocity[d]);
     }
+    pull_back_to_yield(b, *scene.pool);
     update_state(b, *scene.pool);
   }
 }

@@ -71,11 +71,20 @@ void pure_run(Block<Dim>& b, int r, const RowRuns::Run& run, std::vector<double>
       std::fill(s + run.begin, s + run.end, 0.0);
     }
   }
+  if (b.any_strength()) {
+    std::fill(b.shear.row(r) + run.begin, b.shear.row(r) + run.end, slot.strength ? shear_modulus(slot.material.strength) : 0.0);
+    if (slot.strength) {
+      const double* y = std::as_const(slot.store).row(slot.flow_stress_field(), r);
+      std::copy(y + run.begin, y + run.end, b.flow_stress.row(r) + run.begin);
+    } else {
+      std::fill(b.flow_stress.row(r) + run.begin, b.flow_stress.row(r) + run.end, 0.0);
+    }
+  }
 }
 
 template <int Dim> void mixed_state(Block<Dim>& b, int r, int i, std::vector<double>& rho) {
   MixedCell cell;
-  double mass = 0, fastest = 0;
+  double mass = 0, fastest = 0, shear = 0, flow = 0;
   std::array<double, stress_components<Dim>> stress{};
   for (std::size_t m = 0; m < b.materials.size(); ++m) {
     MaterialSlot& slot = b.materials[m];
@@ -94,6 +103,10 @@ template <int Dim> void mixed_state(Block<Dim>& b, int r, int i, std::vector<dou
     p.modulus = std::as_const(slot.store).row(slot.modulus_field(), r)[i];
     mass += std::as_const(slot.store).row(field::mass, r)[i];
     fastest = std::max(fastest, stiffness(slot, p.modulus) / rho[0]);
+    if (slot.strength) {
+      shear += f * shear_modulus(slot.material.strength);
+      flow += f * std::as_const(slot.store).row(slot.flow_stress_field(), r)[i];
+    }
     for (std::size_t a = 0; slot.strength && a < stress_components<Dim>; ++a) {
       stress[a] += f * std::as_const(slot.store).row(field::stress + static_cast<int>(a), r)[i];
     }
@@ -105,6 +118,10 @@ template <int Dim> void mixed_state(Block<Dim>& b, int r, int i, std::vector<dou
   b.wave_speed.row(r)[i] = std::sqrt(fastest);
   for (std::size_t a = 0; b.any_strength() && a < stress_components<Dim>; ++a) {
     b.stress[a].row(r)[i] = stress[a];
+  }
+  if (b.any_strength()) {
+    b.shear.row(r)[i] = shear;
+    b.flow_stress.row(r)[i] = flow;
   }
 }
 

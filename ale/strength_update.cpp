@@ -100,13 +100,16 @@ int return_to_yield(const Model& model,
   int failed = 0;
   for (int i = 0; i < count; ++i) {
     double scale = 1;
-    if (q[i] > 0) {
-      const FlowState state{rows.plastic_strain[at + i], rows.energy[at + i] - material.specific_energy, dt};
-      const PlasticIncrement d = plastic_increment(model, state, q[i]);
+    const FlowState state{rows.plastic_strain[at + i], rows.energy[at + i] - material.specific_energy, dt};
+    const PlasticIncrement d = plastic_increment(model, state, q[i]);
+    if (d.value > 0) {
       scale = 1 - 3 * model.shear_modulus * d.value / q[i];
       rows.plastic_strain[at + i] += d.value;
-      failed += d.converged ? 0 : 1;
+      rows.flow_stress[at + i] = scale * q[i];
+    } else {
+      rows.flow_stress[at + i] = flow_stress(model, state, 0);
     }
+    failed += d.converged ? 0 : 1;
     for (int a = 0; a < n; ++a) {
       rows.stress[a][at + i] = scale * t[a][i];
     }
@@ -145,11 +148,9 @@ template <int Dim> void pull_back_to_yield(const Material& material, int count, 
               s[a] = rows.stress[a][i];
             }
             const double q = equivalent(s, std::integral_constant<int, Dim>{});
-            if (q == 0) {
-              continue;
-            }
             const FlowState state{rows.plastic_strain[i], rows.energy[i] - material.specific_energy, 0};
             const double limit = flow_stress(model, state, 0);
+            rows.flow_stress[i] = limit;
             if (q > limit) {
               for (int a = 0; a < n; ++a) {
                 rows.stress[a][i] *= limit / q;
@@ -161,6 +162,32 @@ template <int Dim> void pull_back_to_yield(const Material& material, int count, 
       material.strength);
 }
 
+template <int Dim> void pull_back_to_yield(Block<Dim>& b, ThreadPool& pool) {
+  const Grid& g = b.grid;
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        const int r = g.cell_row(j, k);
+        for (MaterialSlot& slot : b.materials) {
+          if (!slot.strength || !slot.store.has_row(r)) {
+            continue;
+          }
+          StressRows<Dim> rows{};
+          for (int a = 0; a < stress_components<Dim>; ++a) {
+            rows.stress[a] = slot.store.row(field::stress + a, r);
+          }
+          rows.plastic_strain = slot.store.row(field::plastic_strain<Dim>, r);
+          rows.flow_stress = slot.store.row(slot.flow_stress_field(), r);
+          rows.energy = slot.store.row(field::energy, r);
+          pull_back_to_yield<Dim>(slot.material, g.cells[0], rows);
+        }
+      }
+    }
+  });
+}
+template void pull_back_to_yield<2>(Block<2>&, ThreadPool&);
+template void pull_back_to_yield<3>(Block<3>&, ThreadPool&);
 template int update_stress<2>(const Material&, double, int, const StressRows<2>&);
 template int update_stress<3>(const Material&, double, int, const StressRows<3>&);
 template void pull_back_to_yield<2>(const Material&, int, const StressRows<2>&);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ale/block.hpp"
+#include "core/threads.hpp"
 
 namespace ballast {
 
@@ -10,6 +11,7 @@ namespace ballast {
 template <int Dim> struct StressRows {
   double* stress[stress_components<Dim>];
   double* plastic_strain;
+  double* flow_stress; ///< out: what the deviator may reach now, Pa
   const double* energy;
   const double* gradient[Dim == 2 ? 5 : 9];
 };
@@ -20,5 +22,8 @@ template <int Dim>
 
 /// Scales deviators back to the flow stress (after a remap).
 template <int Dim> void pull_back_to_yield(const Material& material, int count, const StressRows<Dim>& rows);
+
+/// The same for every cell of a block; also sets the flow stresses (start of a run, after a remap).
+template <int Dim> void pull_back_to_yield(Block<Dim>& block, ThreadPool& pool);
 
 } // namespace ballast

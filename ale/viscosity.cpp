@@ -1,7 +1,7 @@
 // Artificial viscosity and the stable time step.
 //
 // Along each logical axis d the velocity jump across a cell is du = e L with the strain rate
-// e = n.grad(u).n along the mid surface normal n and L = V / |mid surface|. In compression
+// e = t.grad(u).t along the mid line's direction t and L = V / |mid surface|. In compression
 //   q = rho |du'| (a |du'| + sqrt((a du')^2 + (b c)^2)),  du' = (1 - psi) du      (Kuropatenko)
 // with a = quadratic_q * 2/3 (the (gamma+1)/4 of a 5/3 gas; s/2 of a solid is 0.7) and b = linear_q. The
 // limiter psi = max(0, min((r_l + r_r)/2, 2 r_l, 2 r_r, 1)) compares e with the two neighbours along the
@@ -51,8 +51,8 @@ template <bool Axisymmetric> void rates_2d(Block<2>& b, int j) {
     const double t0x = 0.5 * (q.x[1] + q.x[2] - q.x[0] - q.x[3]), t0y = 0.5 * (q.y[1] + q.y[2] - q.y[0] - q.y[3]);
     const double t1x = 0.5 * (q.x[3] + q.x[2] - q.x[0] - q.x[1]), t1y = 0.5 * (q.y[3] + q.y[2] - q.y[0] - q.y[1]);
     const double a0 = t1x * t1x + t1y * t1y, a1 = t0x * t0x + t0y * t0y;
-    e0[i] = (t1y * t1y * xx - t1x * t1y * (xy + yx) + t1x * t1x * yy) / (a0 * volume[i]);
-    e1[i] = (t0y * t0y * xx - t0x * t0y * (xy + yx) + t0x * t0x * yy) / (a1 * volume[i]);
+    e0[i] = (t0x * t0x * xx + t0x * t0y * (xy + yx) + t0y * t0y * yy) / (a1 * volume[i]);
+    e1[i] = (t1x * t1x * xx + t1x * t1y * (xy + yx) + t1y * t1y * yy) / (a0 * volume[i]);
     const double area = q.area();
     l0[i] = area / std::sqrt(a0);
     l1[i] = area / std::sqrt(a1);
@@ -112,16 +112,15 @@ void rates(Block<3>& b, int j, int k) {
     };
     const V3 t0{mid(h.x, 0), mid(h.y, 0), mid(h.z, 0)}, t1{mid(h.x, 1), mid(h.y, 1), mid(h.z, 1)},
         t2{mid(h.x, 2), mid(h.y, 2), mid(h.z, 2)};
-    const auto along = [&](const V3& a, const V3& c, double& e, double& l) {
+    const auto along = [&](const V3& t, const V3& a, const V3& c, double& e, double& l) {
       const double nx = a.y * c.z - a.z * c.y, ny = a.z * c.x - a.x * c.z, nz = a.x * c.y - a.y * c.x;
-      const double n2 = nx * nx + ny * ny + nz * nz;
-      e = (nx * nx * xx + ny * ny * yy + nz * nz * zz + nx * ny * xy + ny * nz * yz + nx * nz * xz) /
-          (n2 * volume[i]);
-      l = 16 * volume[i] / std::sqrt(n2);
+      e = (t.x * t.x * xx + t.y * t.y * yy + t.z * t.z * zz + t.x * t.y * xy + t.y * t.z * yz + t.x * t.z * xz) /
+          ((t.x * t.x + t.y * t.y + t.z * t.z) * volume[i]);
+      l = 16 * volume[i] / std::sqrt(nx * nx + ny * ny + nz * nz);
     };
-    along(t1, t2, e0[i], l0[i]);
-    along(t2, t0, e1[i], l1[i]);
-    along(t0, t1, e2[i], l2[i]);
+    along(t0, t1, t2, e0[i], l0[i]);
+    along(t1, t2, t0, e1[i], l1[i]);
+    along(t2, t0, t1, e2[i], l2[i]);
   }
 }
 
@@ -151,8 +150,10 @@ void viscosity_row(int count,
   for (int i = 0; i < count; ++i) {
     const double e = here[i];
     const double sound = wave_speed[i];
-    // A cell with void has no stiffness (modulus 0): the void absorbs the closing, nothing to smear.
-    const double jump = e < 0 && modulus[i] > 0 ? -e * length[i] * (1 - limiter(e, below[i], above[i])) : 0.0;
+    // A cell with void has no stiffness (modulus 0): the void absorbs the closing, nothing to smear. Cold
+    // gas (p = 0) has none either, but no sound in it: there the quadratic term must act.
+    const bool stiff = modulus[i] > 0 || (density[i] > 0 && !(sound > 0));
+    const double jump = e < 0 && stiff ? -e * length[i] * (1 - limiter(e, below[i], above[i])) : 0.0;
     const double a = c.quadratic * jump, lin = c.linear * sound;
     const double speed = a + std::sqrt(a * a + lin * lin);
     const double active = jump > 0 ? speed : 0.0;

@@ -1,6 +1,7 @@
 // The program `ballast`: reads the command line, calls a command, turns what it throws into an exit
 // status.
 #include "core/error.hpp"
+#include "core/fp_traps.hpp"
 #include "post/report.hpp"
 #include "problems/commands.hpp"
 #include <CLI/CLI.hpp>
@@ -93,6 +94,7 @@ int dispatch(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+  ballast::trap_floating_point_errors();
   try {
     return dispatch(argc, argv);
   } catch (const ballast::Error& error) {

@@ -5,8 +5,13 @@
 
 namespace ballast::remap {
 
+/// Axis of sweep number q (0 .. dim - 1): i, j, k or the reverse.
+inline int sweep_axis(int dim, int q, long order) {
+  return order % 2 == 0 ? q : dim - 1 - q;
+}
+
 template <int Dim>
-void compute_swept(Mesh<Dim>& mesh, ThreadPool& pool, const std::array<RowField, Dim>& from, const std::array<RowField, Dim>& to);
+void compute_swept(Mesh<Dim>& mesh, ThreadPool& pool, const std::array<RowField, Dim>& from, const std::array<RowField, Dim>& to, long order);
 
 /// Allocates tiles that a sweep may reach and fills every ghost the sweep reads.
 template <int Dim> void exchange_for_sweep(Mesh<Dim>& mesh);

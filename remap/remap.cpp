@@ -9,30 +9,61 @@ namespace ballast::remap {
 
 namespace {
 
-/// Largest share of its donor's volume that any face sweeps.
-template <int Dim> double largest_share(const Mesh<Dim>& m, ThreadPool& pool) {
+/// How hard a pseudo-step is on the cells.
+struct Strain {
+  double share = 0; ///< largest share of its donor's volume that a face sweeps
+  double ratio = 1; ///< largest max(V* / v, v / V*) of volumes V* between sweeps, v = min(V_old, V_new)
+};
+constexpr double largest_ratio = 5;
+
+template <int Dim> void strain_of_row(const Mesh<Dim>& m, int r, long order, std::vector<double>& between, Strain& worst) {
   const Grid& g = m.grid;
-  std::vector<double> worst(static_cast<std::size_t>(g.slabs()), 0.0);
+  const double* v = m.volume.row(r);
+  double* vs = between.data(); // Dim rows: volume after each sweep
+  const int n = g.cells[0];
+  double share = worst.share, ratio = worst.ratio;
+  for (int q = 0; q < Dim; ++q) {
+    const int axis = sweep_axis(Dim, q, order);
+    const RowField& swept = m.swept[static_cast<std::size_t>(axis)];
+    const double *low = swept.row(r), *high = swept.row(r + g.cell_row_stride(axis)) + (axis == 0 ? 1 : 0);
+    const double* before = q == 0 ? v : vs + (q - 1) * n;
+    double* after = vs + q * n;
+#pragma omp simd reduction(max : share)
+    for (int i = 0; i < n; ++i) {
+      share = std::max(share, std::max(low[i], -high[i]) / v[i]);
+      after[i] = before[i] + high[i] - low[i];
+    }
+  }
+  const double* v_new = vs + (Dim - 1) * n;
+  for (int q = 0; q + 1 < Dim; ++q) {
+    const double* v_star = vs + q * n;
+#pragma omp simd reduction(max : ratio)
+    for (int i = 0; i < n; ++i) {
+      const double least = std::min(v[i], v_new[i]);
+      const double here = std::max(v_star[i] / least, least / std::max(v_star[i], 1e-9 * least));
+      ratio = std::max(ratio, least > 0 ? here : 0.0); // an inverted target is not a matter of step size
+    }
+  }
+  worst = {share, ratio};
+}
+
+template <int Dim> Strain strain_of(const Mesh<Dim>& m, ThreadPool& pool, long order) {
+  const Grid& g = m.grid;
+  std::vector<Strain> worst(static_cast<std::size_t>(g.slabs()));
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    std::vector<double> between(static_cast<std::size_t>(Dim * g.cells[0]));
     for (int s = begin; s < end; ++s) {
-      double share = 0;
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
-        const int r = g.cell_row(j, k);
-        const double* v = m.volume.row(r);
-        for (int axis = 0; axis < Dim; ++axis) {
-          const RowField& swept = m.swept[static_cast<std::size_t>(axis)];
-          const double *low = swept.row(r), *high = swept.row(r + g.cell_row_stride(axis)) + (axis == 0 ? 1 : 0);
-#pragma omp simd reduction(max : share)
-          for (int i = 0; i < g.cells[0]; ++i) {
-            share = std::max(share, std::max(low[i], -high[i]) / v[i]);
-          }
-        }
+        strain_of_row(m, g.cell_row(j, k), order, between, worst[static_cast<std::size_t>(s)]);
       }
-      worst[static_cast<std::size_t>(s)] = share;
     }
   });
-  return *std::max_element(worst.begin(), worst.end());
+  Strain all;
+  for (const Strain& s : worst) {
+    all = {std::max(all.share, s.share), std::max(all.ratio, s.ratio)};
+  }
+  return all;
 }
 
 /// Tiles within reach of a tile where a material is present are allocated, others released.
@@ -143,7 +174,7 @@ template <int Dim>
 void sweep_all(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long order, Report& report) {
   report.mass_out.resize(m.materials.size(), 0.0);
   for (int q = 0; q < Dim; ++q) {
-    const int axis = order % 2 == 0 ? q : Dim - 1 - q;
+    const int axis = sweep_axis(Dim, q, order);
     exchange_for_sweep(m);
     exchange_owner(m, pool);
     for (int a = 0; a < Dim; ++a) {
@@ -159,33 +190,52 @@ void sweep_all(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long or
   ++report.substeps;
 }
 
+/// The nodes at `part` of the way.
+template <int Dim>
+std::array<RowField, Dim> on_the_way(const std::array<RowField, Dim>& start, const std::array<RowField, Dim>& end, double part) {
+  std::array<RowField, Dim> to = end;
+  for (std::size_t d = 0; d < Dim && part < 1; ++d) {
+    auto& x = to[d].data();
+    const auto &a = start[d].data(), &b = end[d].data();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x[i] = a[i] + part * (b[i] - a[i]);
+    }
+  }
+  return to;
+}
+
 template <int Dim> Report remap(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long order) {
+  constexpr double smallest_part = 1.0 / 512;
   Report report;
   report.mass_out.resize(m.materials.size(), 0.0);
-  compute_swept<Dim>(m, pool, m.position, m.target);
-  const int substeps = std::max(1, static_cast<int>(std::ceil(largest_share(m, pool) / settings.largest_swept)));
-  if (substeps == 1) {
+  const auto fits = [&](const Strain& s) { return s.share <= settings.largest_swept && s.ratio < largest_ratio; };
+  compute_swept<Dim>(m, pool, m.position, m.target, order);
+  const Strain whole = strain_of(m, pool, order);
+  if (fits(whole)) {
     sweep_all(m, settings, pool, order, report);
     m.position = m.target;
     return report;
   }
-  // Larger motions go in equal parts: every swept volume then fits its donor.
+  // Larger motions go in parts: every swept volume then fits its donor and no cell is squeezed between
+  // sweeps beyond what either end of the part asks for.
   const std::array<RowField, Dim> start = m.position;
-  for (int s = 1; s <= substeps; ++s) {
-    std::array<RowField, Dim> to = m.target;
-    if (s < substeps) {
-      const double part = static_cast<double>(s) / substeps;
-      for (std::size_t d = 0; d < Dim; ++d) {
-        auto& x = to[d].data();
-        const auto &a = start[d].data(), &b = m.target[d].data();
-        for (std::size_t i = 0; i < x.size(); ++i) {
-          x[i] = a[i] + part * (b[i] - a[i]);
-        }
-      }
+  const double parts = std::clamp(std::ceil(whole.share / settings.largest_swept), 1.0, 1 / smallest_part);
+  double done = 0;
+  for (double part = 1 / parts; done < 1;) {
+    const double next = done + 1.5 * part > 1 ? 1 : done + part; // no tiny last part
+    const std::array<RowField, Dim> to = on_the_way<Dim>(start, m.target, next);
+    const long turn = order + report.substeps;
+    compute_swept<Dim>(m, pool, m.position, to, turn);
+    // A face 10 % over its share does no harm; a squeezed cell does.
+    Strain s = strain_of(m, pool, turn);
+    s.share *= 0.9;
+    if (!fits(s) && part > smallest_part) {
+      part = 0.5 * (next - done);
+      continue;
     }
-    compute_swept<Dim>(m, pool, m.position, to);
-    sweep_all(m, settings, pool, order + s - 1, report);
+    sweep_all(m, settings, pool, turn, report);
     m.position = to;
+    done = next;
   }
   return report;
 }

@@ -189,51 +189,57 @@ Four four(const TileStore& s, int field, const Line& l) {
 }
 
 /// Donor and its two neighbours (low, high along the axis) of face i: cells 0 1 2 for t > 0, 1 2 3 else.
+/// All four are loaded, then selected: a conditional load would keep the row loop from vectorising.
 struct Three {
   double low, mid, high;
 };
-inline Three pick(const Four& f, int i, bool positive) {
-  return positive ? Three{f.q[0][i], f.q[1][i], f.q[2][i]} : Three{f.q[1][i], f.q[2][i], f.q[3][i]};
+inline Three pick(const Four& f, int i, std::uint64_t positive) {
+  const double a = f.q[0][i], b = f.q[1][i], c = f.q[2][i], d = f.q[3][i];
+  return {select(positive, a, b), select(positive, b, c), select(positive, c, d)};
 }
 
 /// Masses from volumes through a row of faces, by the limited density; has_slope marks faces whose
 /// donor may have slopes.
-void mass_fluxes(const TileStore& store, const RowField& volumes, const Line& l, bool limit, int faces, const double* volume_flux, double* mass_flux, double* has_slope) {
+void mass_fluxes(const TileStore& store, const RowField& volumes, const Line& l, double unlimited, int faces, const double* volume_flux, double* mass_flux, double* has_slope) {
   const Four f = four(store, 0, l), m = four(store, 1, l);
   const Four v{{volumes.row(l.row[0]) + l.shift[0], volumes.row(l.row[1]) + l.shift[1],
                 volumes.row(l.row[2]) + l.shift[2], volumes.row(l.row[3]) + l.shift[3]}};
 #pragma omp simd
   for (int i = 0; i < faces; ++i) {
     const double t = volume_flux[i];
-    const bool positive = t > 0;
+    const std::uint64_t positive = where_positive(t);
     const Three vf = pick(f, i, positive), vm = pick(m, i, positive), vv = pick(v, i, positive);
-    const bool good = vf.mid > slope_fraction && vf.low > neighbour_fraction && vf.high > neighbour_fraction;
+    const bool good = (vf.mid > slope_fraction) & (vf.low > neighbour_fraction) & (vf.high > neighbour_fraction);
     const auto density = [](double mass, double fraction, double volume) {
-      return mass / std::max(fraction * volume, 1e-300);
+      const double held = fraction * volume;
+      return mass / (held > 1e-300 ? held : 1e-300);
     };
     const double rho = density(vm.mid, vf.mid, vv.mid);
     const double sl = slope(density(vm.low, vf.low, vv.low), rho, density(vm.high, vf.high, vv.high),
-                            0.5 * (vv.low + vv.mid), 0.5 * (vv.mid + vv.high), vv.mid, limit);
+                            0.5 * (vv.low + vv.mid), 0.5 * (vv.mid + vv.high), vv.mid, unlimited);
     const double distance = 0.5 * (vv.mid - std::abs(t));
-    const double face = rho + (good ? (positive ? sl : -sl) * distance : 0.0);
-    mass_flux[i] = t == 0 ? 0.0 : t * face;
+    const double rise = select(positive, sl, -sl) * distance;
+    const double some = t * (rho + (good ? rise : 0.0));
+    const bool whole = (std::abs(t) == vf.mid * vv.mid) & (t != 0); // nothing stays behind, not even round-off
+    const double all = select(positive, vm.mid, -vm.mid);
+    mass_flux[i] = whole ? all : some;
     has_slope[i] = good ? 1.0 : 0.0;
   }
 }
 
 /// Intensive quantity carried with the mass.
-void intensive_fluxes(const TileStore& store, int field, const Line& l, bool limit, int faces, const double* mass_flux, const double* has_slope, double* out) {
+void intensive_fluxes(const TileStore& store, int field, const Line& l, double unlimited, int faces, const double* mass_flux, const double* has_slope, double* out) {
   const Four m = four(store, 1, l), q = four(store, field, l);
 #pragma omp simd
   for (int i = 0; i < faces; ++i) {
     const double t = mass_flux[i];
-    const bool positive = t > 0;
+    const std::uint64_t positive = where_positive(t);
     const Three vm = pick(m, i, positive), vq = pick(q, i, positive);
     const double sl = slope(vq.low, vq.mid, vq.high, 0.5 * (vm.low + vm.mid) + 1e-300,
-                            0.5 * (vm.mid + vm.high) + 1e-300, vm.mid + 1e-300, limit);
+                            0.5 * (vm.mid + vm.high) + 1e-300, vm.mid + 1e-300, unlimited);
     const double distance = 0.5 * (vm.mid - std::abs(t));
-    const double face = vq.mid + (has_slope[i] > 0 ? (positive ? sl : -sl) * distance : 0.0);
-    out[i] = t == 0 ? 0.0 : t * face;
+    const double rise = select(positive, sl, -sl) * distance, sloped = has_slope[i];
+    out[i] = t * (vq.mid + (sloped > 0 ? rise : 0.0));
   }
 }
 
@@ -264,9 +270,9 @@ public:
       }
       const TileStore& store = *m_.materials[static_cast<std::size_t>(k_mat)];
       double* mass = out.flux(k_mat, 1);
-      mass_fluxes(store, m_.volume, line, s_.limit, faces_, out.flux(k_mat, 0), mass, has_slope_.data());
+      mass_fluxes(store, m_.volume, line, s_.limit ? 0.0 : 1.0, faces_, out.flux(k_mat, 0), mass, has_slope_.data());
       for (int q = 2; q < store.conserved(); ++q) {
-        intensive_fluxes(store, q, line, s_.limit, faces_, mass, has_slope_.data(), out.flux(k_mat, q));
+        intensive_fluxes(store, q, line, s_.limit ? 0.0 : 1.0, faces_, mass, has_slope_.data(), out.flux(k_mat, q));
       }
 #pragma omp simd
       for (int i = 0; i < faces_; ++i) {
@@ -317,7 +323,7 @@ private:
     const double *t_low = flux_or_zero(low, q, 0), *t_high = flux_or_zero(high, q, 0) + step;
 #pragma omp simd
     for (int i = 0; i < n; ++i) {
-      const bool same = t_low[i] == 0 && t_high[i] == 0 && v_next[i] == v[i];
+      const bool same = (t_low[i] == 0) & (t_high[i] == 0) & (v_next[i] == v[i]);
       const double next = (f[i] * v[i] + t_low[i] - t_high[i]) / v_next[i];
       f_next[i] = same ? f[i] : next;
     }
@@ -341,10 +347,12 @@ private:
       const double *x_low = flux_or_zero(low, q, field), *x_high = flux_or_zero(high, q, field) + step;
 #pragma omp simd
       for (int i = 0; i < n; ++i) {
-        const bool same = m_low[i] == 0 && m_high[i] == 0;
-        const double safe = mass_next[i] > 0 ? mass_next[i] : 1.0;
-        const double next = (mass[i] * x[i] + x_low[i] - x_high[i]) / safe;
-        x_next[i] = same ? x[i] : mass_next[i] > 0 ? next : 0.0;
+        const bool same = (m_low[i] == 0) & (m_high[i] == 0), some = mass_next[i] > 0;
+        const double safe = some ? mass_next[i] : 1.0;
+        // (m x + in - out) / m_next as a change of x: a uniform value stays so to the bit.
+        const double next = x[i] + ((x_low[i] - m_low[i] * x[i]) - (x_high[i] - m_high[i] * x[i])) / safe;
+        const double changed = some ? next : 0.0, old = x[i];
+        x_next[i] = same ? old : changed;
       }
     }
     drop_slivers(store, r, sums);
@@ -363,7 +371,12 @@ private:
   void drop_slivers(TileStore& store, int r, SlabSums& sums) {
     double* f = store.next_row(0, r);
     double* mass = store.next_row(1, r);
+    int suspects = 0;
+#pragma omp simd reduction(+ : suspects)
     for (int i = 0; i < m_.grid.cells[0]; ++i) {
+      suspects += (f[i] < sliver_fraction) | !(mass[i] > 0) ? 1 : 0;
+    }
+    for (int i = 0; i < m_.grid.cells[0] && suspects > 0; ++i) {
       if ((f[i] >= sliver_fraction && mass[i] > 0) || (f[i] == 0 && mass[i] == 0)) {
         continue;
       }
@@ -381,23 +394,25 @@ private:
     const int n = m_.grid.cells[0];
     rest_.assign(static_cast<std::size_t>(n), 1.0);
     most_.assign(static_cast<std::size_t>(n), 0.0);
-    who_.assign(static_cast<std::size_t>(n), -1);
+    who_.assign(static_cast<std::size_t>(n), -1.0);
+    double *rest = rest_.data(), *most = most_.data(), *who = who_.data();
     for (int q = 0; q < m_.material_count(); ++q) {
       TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
       if (!store.has_row(r)) {
         continue;
       }
       const double* f = store.next_row(0, r);
+#pragma omp simd
       for (int i = 0; i < n; ++i) {
-        const auto c = static_cast<std::size_t>(i);
-        rest_[c] -= f[i];
-        who_[c] = f[i] > most_[c] ? q : who_[c];
-        most_[c] = std::max(most_[c], f[i]);
+        const double old = who[i];
+        rest[i] -= f[i];
+        who[i] = f[i] > most[i] ? q : old;
+        most[i] = std::max(most[i], f[i]);
       }
     }
     for (int i = 0; i < n; ++i) {
       const auto c = static_cast<std::size_t>(i);
-      if (who_[c] >= 0 && rest_[c] != 0) {
+      if (rest_[c] != 0 && who_[c] >= 0) {
         m_.materials[static_cast<std::size_t>(who_[c])]->next_row(0, r)[i] += rest_[c];
       }
     }
@@ -433,8 +448,7 @@ private:
   Mesh<Dim>& m_;
   const Settings& s_;
   int axis_, faces_;
-  std::vector<double> has_slope_, unowned_, zeros_, rest_, most_;
-  std::vector<int> who_;
+  std::vector<double> has_slope_, unowned_, zeros_, rest_, most_, who_;
 };
 
 } // namespace

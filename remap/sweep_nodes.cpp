@@ -51,18 +51,26 @@ public:
       double *momentum = out[d + 1].data(), *kinetic = out[Dim + 1].data();
       const double *t = flux_.data(), *mid = between_.data(), *lo = before_.data(), *hi = after_.data();
       const double *wl = low_mass_.data(), *wh = high_mass_.data();
-      const bool limit = s_.limit;
+      const double *held1 = m_.node_mass.row(r - stride) - shift, *held2 = m_.node_mass.row(r);
+      const double unlimited = s_.limit ? 0 : 1;
 #pragma omp simd
       for (int i = 0; i < links_; ++i) {
-        const bool positive = t[i] > 0;
-        const double u_donor = positive ? u1[i] : u2[i];
-        const double u_low = positive ? u0[i] : u1[i], u_high = positive ? u2[i] : u3[i];
-        const double d_low = (positive ? lo[i] : mid[i]) + 1e-300, d_high = (positive ? mid[i] : hi[i]) + 1e-300;
-        const double sl = slope(u_low, u_donor, u_high, d_low, d_high, std::max(d_low, d_high), limit);
-        const double distance = (positive ? wl[i] : wh[i]) - 0.5 * std::abs(t[i]);
-        const double value = u_donor + (positive ? sl : -sl) * std::max(distance, 0.0);
-        momentum[i] = t[i] * value;
-        kinetic[i] += 0.5 * t[i] * value * value;
+        // Loads first, then selections: conditional loads would keep the loop from vectorising.
+        const double ua = u0[i], ub = u1[i], uc = u2[i], ud = u3[i], give = t[i];
+        const double mass_a = lo[i], mass_b = mid[i], mass_c = hi[i];
+        const double w1 = wl[i], w2 = wh[i], h1 = held1[i], h2 = held2[i];
+        const std::uint64_t positive = where_positive(give);
+        const double u_donor = select(positive, ub, uc), u_low = select(positive, ua, ub), u_high = select(positive, uc, ud);
+        const double d_low = select(positive, mass_a, mass_b) + 1e-300, d_high = select(positive, mass_b, mass_c) + 1e-300;
+        const double sl = slope(u_low, u_donor, u_high, d_low, d_high, d_low > d_high ? d_low : d_high, unlimited);
+        // From the node to the middle of what leaves; no further than what stays behind, so that a node
+        // beside void that gives all it has gives its own velocity.
+        const double left = select(positive, h1, h2) - std::abs(give);
+        const double middle = select(positive, w1, w2) - 0.5 * std::abs(give);
+        const double least = middle < left ? middle : left, distance = least > 0 ? least : 0.0;
+        const double value = u_donor + select(positive, sl, -sl) * distance;
+        momentum[i] = give * value;
+        kinetic[i] += 0.5 * give * value * value;
       }
     }
   }
@@ -85,11 +93,13 @@ public:
       double* next = m_.next_velocity[d].row(r);
 #pragma omp simd
       for (int i = 0; i < nodes_; ++i) {
-        const bool same = ml[i] == 0 && mh[i] == 0;
         const bool holds = next_mass[i] > 1e-9 * (mass[i] + std::abs(ml[i]) + std::abs(mh[i]));
-        const double mean = (mass[i] * u[i] + pl[i] - ph[i]) / (holds ? next_mass[i] : 1.0);
-        next[i] = same || !holds ? u[i] : mean;
-        loss[i] += same ? 0.0 : 0.5 * (mass[i] * u[i] * u[i] - next_mass[i] * next[i] * next[i]);
+        // (M u + p_low - p_high) / M_next as a change of u: a uniform velocity stays so to the bit.
+        const double change = (pl[i] - ml[i] * u[i]) - (ph[i] - mh[i] * u[i]);
+        const double old = u[i], m1 = next_mass[i], rise = change / (holds ? m1 : 1.0);
+        const double now = old + (holds ? rise : 0.0);
+        next[i] = now;
+        loss[i] += 0.5 * (mass[i] * old * old - m1 * now * now); // exactly 0 where no mass passes
       }
     }
     boundary_sums(j, k, low, high, step, sums);
@@ -144,55 +154,66 @@ private:
 
   void add_cells(const int (&cell)[3], int column, double share) {
     const Grid& g = m_.grid;
-    const auto a = static_cast<std::size_t>(axis_);
-    const RowField& face = m_.mass_flux[a];
+    const RowField& face = m_.mass_flux[static_cast<std::size_t>(axis_)];
+    const double* low0 = m_.low_share[0].data() + g.ghost[0];
+    double* flux = flux_.data();
     if (axis_ == 0) {
       const int r = g.cell_row(cell[1], cell[2]);
       const double *f = face.row(r), *mass = cell_mass_.row(r);
       const int n = g.cells[0];
       // Link i joins node i-1 and node i through cell i-1; links 0 and n+1 are the boundary faces.
-      flux_[0] += share * f[0];
-      flux_[static_cast<std::size_t>(n + 1)] += share * f[n];
-      for (int i = 1; i <= n; ++i) {
-        add(static_cast<std::size_t>(i), share, low_share0(i - 1), f[i - 1], f[i], i > 1 ? mass[i - 2] : mass[0],
-            mass[i - 1], i < n ? mass[i] : mass[n - 1]);
-      }
+      flux[0] += share * f[0];
+      flux[n + 1] += share * f[n];
+      add(1, n + 1, {f - 1, f, mass - 2, mass - 1, mass}, [=](int) { return share; }, [=](int i) { return low0[i - 1]; });
       return;
     }
     // The link below node row `cell[axis]`: through the cell under it.
-    const int n = g.cells[a], at = cell[axis_], here = at - 1;
+    const int n = g.cells[static_cast<std::size_t>(axis_)], at = cell[axis_], here = at - 1;
     int c[3] = {cell[0], cell[1], cell[2]};
     const auto row = [&](int q) {
       c[axis_] = q;
       return g.cell_row(c[1], c[2]);
     };
-    const int first = column < 0 ? 1 : 0, last = column < 0 ? g.cells[0] : g.cells[0] - 1;
+    const int first = column < 0 ? 1 : 0, end = g.cells[0] + first;
     if (at == 0 || at == n + 1) {
       const double* f = face.row(row(at == 0 ? 0 : n));
-      for (int i = first; i <= last; ++i) {
-        flux_[static_cast<std::size_t>(i)] += share * share_of(0, i + column, column < 0) * f[i + column];
+      for (int i = first; i < end; ++i) {
+        flux[i] += share * share_of(0, i + column, column < 0) * f[i + column];
       }
       return;
     }
     const double low = share_of(axis_, here, false);
-    const double *f_low = face.row(row(here)), *f_high = face.row(row(here + 1));
-    const double *m0 = cell_mass_.row(row(std::max(here - 1, 0))), *m1 = cell_mass_.row(row(here)),
-                 *m2 = cell_mass_.row(row(std::min(here + 1, n - 1)));
-    for (int i = first; i <= last; ++i) {
-      const int q = i + column;
-      add(static_cast<std::size_t>(i), share * share_of(0, q, column < 0), low, f_low[q], f_high[q], m0[q], m1[q], m2[q]);
+    const Through cells{face.row(row(here)) + column, face.row(row(here + 1)) + column,
+                        cell_mass_.row(row(std::max(here - 1, 0))) + column, cell_mass_.row(row(here)) + column,
+                        cell_mass_.row(row(std::min(here + 1, n - 1))) + column};
+    const auto lower = [=](int) { return low; };
+    if (column < 0) {
+      add(first, end, cells, [=](int i) { return share * (1 - low0[i - 1]); }, lower);
+    } else {
+      add(first, end, cells, [=](int i) { return share * low0[i]; }, lower);
     }
   }
 
-  double low_share0(int i) const { return share_of(0, i, false); }
+  /// Rows of face fluxes below and above the cells that links pass through, and of the masses of the
+  /// cells before, these, and after.
+  struct Through {
+    const double *f_low, *f_high, *before, *between, *after;
+  };
 
-  void add(std::size_t link, double share, double low, double f_low, double f_high, double m0, double m1, double m2) {
-    flux_[link] += share * ((1 - low) * f_low + low * f_high);
-    low_mass_[link] += share * low * m1;
-    high_mass_[link] += share * (1 - low) * m1;
-    before_[link] += share * m0;
-    between_[link] += share * m1;
-    after_[link] += share * m2;
+  template <class Share, class Low>
+  void add(int first, int end, const Through& c, Share&& share_at, Low&& low_at) {
+    double *flux = flux_.data(), *low_mass = low_mass_.data(), *high_mass = high_mass_.data();
+    double *before = before_.data(), *between = between_.data(), *after = after_.data();
+#pragma omp simd
+    for (int i = first; i < end; ++i) {
+      const double share = share_at(i), low = low_at(i), mass = c.between[i];
+      flux[i] += share * ((1 - low) * c.f_low[i] + low * c.f_high[i]);
+      low_mass[i] += share * low * mass;
+      high_mass[i] += share * (1 - low) * mass;
+      before[i] += share * c.before[i];
+      between[i] += share * mass;
+      after[i] += share * c.after[i];
+    }
   }
 
   void boundary_sums(int j, int k, const std::vector<double>* low, const std::vector<double>* high, int step, SlabSums& sums) {
@@ -249,6 +270,8 @@ template <int Dim> RowField total_mass(const Mesh<Dim>& m, ThreadPool& pool, boo
             sum[i] += mass[i];
           }
         }
+        sum[-1] = sum[0];
+        sum[g.cells[0]] = sum[g.cells[0] - 1];
       }
     }
   });
@@ -263,6 +286,7 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, const RowField& loss, const 
   const Grid& g = m.grid;
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
     std::vector<double> per_mass(static_cast<std::size_t>(g.cells[0]));
+    double* gains = per_mass.data();
     for (int s = begin; s < end; ++s) {
       SlabSums& slab = sums[static_cast<std::size_t>(s)];
       for (int q = 0; q < g.rows_per_slab(); ++q) {
@@ -281,7 +305,9 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, const RowField& loss, const 
 #pragma omp simd
           for (int i = 0; i < g.cells[0]; ++i) {
             const double w = share * (di ? 1 - low0[i] : low0[i]);
-            per_mass[static_cast<std::size_t>(i)] += mass[i] > 0 ? w * l[i] / mass[i] : 0.0;
+            const bool some = mass[i] > 0;
+            const double gain = w * l[i] / (some ? mass[i] : 1.0);
+            gains[i] += some ? gain : 0.0;
           }
         }
         const int r = g.cell_row(j, k);

@@ -5,12 +5,14 @@ namespace ballast {
 std::vector<VerifyCase> verification_cases() {
   std::vector<VerifyCase> cases;
   verify::add_riemann_cases(cases);
+  verify::add_solid_impact_cases(cases);
   verify::add_advection_cases(cases);
   verify::add_strong_tube_cases(cases);
   verify::add_impact_cases(cases);
   verify::add_blast_cases(cases);
   verify::add_rest_cases(cases);
   verify::add_piston_cases(cases);
+  verify::add_frame_cases(cases);
   return cases;
 }
 

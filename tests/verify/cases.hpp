@@ -6,11 +6,13 @@
 namespace ballast::verify {
 
 void add_riemann_cases(std::vector<VerifyCase>& cases);
+void add_solid_impact_cases(std::vector<VerifyCase>& cases);
 void add_advection_cases(std::vector<VerifyCase>& cases);
 void add_strong_tube_cases(std::vector<VerifyCase>& cases);
 void add_impact_cases(std::vector<VerifyCase>& cases);
 void add_blast_cases(std::vector<VerifyCase>& cases);
 void add_rest_cases(std::vector<VerifyCase>& cases);
 void add_piston_cases(std::vector<VerifyCase>& cases);
+void add_frame_cases(std::vector<VerifyCase>& cases);
 
 } // namespace ballast::verify
