@@ -27,7 +27,7 @@ void share_with_void(const CellMotion& m, MixedCell& cell, MixedCell::Part& hole
   for (int k = 0; k < solids; ++k) {
     MixedCell::Part& p = cell.part[k];
     p.volume_change = compliance > 0 ? rest * (p.volume / p.modulus) / compliance : 0;
-    p.work = -p.pressure * p.volume_change;
+    p.work = -hole.pressure * p.volume_change; // the forces of the step were the void's
   }
   // Materials in tension close up first and leave room, those under pressure then expand into it.
   for (const bool expanding : {false, true}) {

@@ -282,7 +282,8 @@ template <int Dim> MixedCell load_mixed(const Block<Dim>& b, int r, int i, doubl
   return cell;
 }
 
-/// Energy and volumes of one mixed cell. Returns the work that void could not take.
+/// Energy and volumes of one mixed cell. Returns the energy that void took or gave: what the materials
+/// received less what the forces gave, with the reference pressure's part of the void's volume change.
 template <int Dim>
 double advance_mixed(Scene<Dim>& scene, Block<Dim>& b, int r, int i, double dt, const WorkRows<Dim>& w) {
   const double volume = b.volume.row(r)[i], next_volume = b.next_volume.row(r)[i];
@@ -305,7 +306,7 @@ double advance_mixed(Scene<Dim>& scene, Block<Dim>& b, int r, int i, double dt, 
     mass += p.mass;
     pressure_work += p.work;
   }
-  double taken = 0, sum = 0;
+  double taken = 0, sum = 0, void_change = 0;
   int largest = 0;
   for (int k = 0; k < cell.count; ++k) {
     MixedCell::Part& p = cell.part[k];
@@ -315,6 +316,7 @@ double advance_mixed(Scene<Dim>& scene, Block<Dim>& b, int r, int i, double dt, 
     sum += slot.store.row(field::fraction, r)[i];
     largest = part_volume > cell.part[largest].volume + cell.part[largest].volume_change ? k : largest;
     if (p.is_void) {
+      void_change = p.volume_change;
       continue;
     }
     const double work = p.work + deviator[k] + rest * (p.mass / mass);
@@ -323,7 +325,7 @@ double advance_mixed(Scene<Dim>& scene, Block<Dim>& b, int r, int i, double dt, 
   }
   double& most = b.materials[static_cast<std::size_t>(cell.part[largest].material)].store.row(field::fraction, r)[i];
   most += 1 - sum;
-  return w.work[i] - taken;
+  return taken - w.work[i] + b.reference_pressure * void_change;
 }
 
 template <int Dim>
@@ -365,7 +367,7 @@ void advance_row(Scene<Dim>& scene, Block<Dim>& b, int j, int k, double dt, Work
   for (const RowRuns::Run& run : buffer.runs.pure) {
     if (b.materials[static_cast<std::size_t>(run.material)].is_void) {
       for (int i = run.begin; i < run.end; ++i) {
-        sums.void_work += buffer.rows.work[i];
+        sums.void_work += b.reference_pressure * (b.next_volume.row(r)[i] - b.volume.row(r)[i]) - buffer.rows.work[i];
       }
     }
     advance_pure(b, r, run, dt, buffer.rows, sums.failed);

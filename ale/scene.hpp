@@ -21,7 +21,7 @@ struct Numerics {
   Closure closure = Closure::pressure_relaxation;
   double quadratic_q = 1.0; ///< on Kuropatenko's (gamma + 1)/4 taken as 2/3, see ale/viscosity
   double linear_q = 0.5;    ///< on the sound speed
-  double hourglass = 0.03;
+  double hourglass = 0.06; ///< of rho c V / L; 64 times it over the CFL number damps a 3D mode
   bool energy_return = true; ///< kinetic energy lost in the remap goes to internal energy
   remap::NormalMethod normal = remap::NormalMethod::elvira;
   double dt_initial = 0; ///< s, 0: a tenth of the stable step
@@ -58,7 +58,7 @@ struct Clock {
 struct Ledger {
   double boundary_work = 0;       ///< J, done on the block by moving walls and inflows
   double ambient_work = 0;        ///< J, by the reference pressure on the changing volume
-  double void_work = 0;           ///< J of the reference pressure that void, having no energy, cannot take
+  double void_work = 0;           ///< J gained by cells with void beyond their forces' work: void holds no energy
   double remap_kinetic_loss = 0;  ///< J of kinetic energy lost in remaps and not returned
   double remap_kinetic_return = 0; ///< J lost and returned to internal energy
   double stress_remap_loss = 0;   ///< J
@@ -69,6 +69,7 @@ struct Ledger {
   double sliver_mass = 0;         ///< kg
   long slivers = 0;
   long spalled_cells = 0;
+  long closed_voids = 0;          ///< void residues closed after remaps
   long energy_floors = 0;         ///< cells whose energy return was cut to keep e from falling
   long retries = 0;
 };

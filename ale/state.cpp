@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <fmt/format.h>
 #include <utility>
 
@@ -196,7 +197,88 @@ template <int Dim> void open_void(Block<Dim>& b, int r, int i) {
   b.materials.back().store.row(field::fraction, r)[i] = left;
 }
 
+/// A void residue that reconstruction left inside a body: small, no pure void beside the cell, and closing
+/// it would not bring any material to its spall pressure. It would cut the body's tension for good.
+template <int Dim> bool is_residue(const Block<Dim>& b, int i, int j, int k) {
+  constexpr double largest_residue = 1e-3;
+  const Grid& g = b.grid;
+  const int r = g.cell_row(j, k), hole = b.void_index();
+  const double gap = b.materials[static_cast<std::size_t>(hole)].store.row(field::fraction, r)[i];
+  if (gap <= 0 || gap > largest_residue) {
+    return false;
+  }
+  const int index[3] = {i, j, k};
+  for (int axis = 0; axis < Dim; ++axis) {
+    const int stride = g.cell_row_stride(axis), step = axis == 0 ? 1 : 0;
+    const bool below = index[axis] > 0 && b.owner_row(r - stride)[i - step] == hole;
+    const bool above = index[axis] + 1 < g.cells[static_cast<std::size_t>(axis)] && b.owner_row(r + stride)[i + step] == hole;
+    if (below || above) {
+      return false;
+    }
+  }
+  double compliance = 0, weakest = -std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m + 1 < b.materials.size(); ++m) {
+    const MaterialSlot& slot = b.materials[m];
+    const double f = slot.store.row(field::fraction, r)[i];
+    if (f > 0) {
+      compliance += f / slot.store.row(slot.modulus_field(), r)[i];
+      weakest = std::max(weakest, slot.material.spall_pressure);
+    }
+  }
+  return compliance > 0 && -gap / compliance > weakest;
+}
+
+template <int Dim> void close_void(Block<Dim>& b, int r, int i) {
+  double& gap = b.materials.back().store.row(field::fraction, r)[i];
+  const double stretch = 1 / (1 - gap);
+  for (std::size_t m = 0; m + 1 < b.materials.size(); ++m) {
+    if (std::as_const(b.materials[m].store).row(field::fraction, r)[i] > 0) {
+      b.materials[m].store.row(field::fraction, r)[i] *= stretch;
+    }
+  }
+  gap = 0;
+}
+
 } // namespace
+
+template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool) {
+  if (b.void_index() < 0) {
+    return 0;
+  }
+  const Grid& g = b.grid;
+  std::vector<std::vector<int>> residues(static_cast<std::size_t>(g.slabs() * g.rows_per_slab()));
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        const std::int8_t* owner = b.owner_row(g.cell_row(j, k));
+        for (int i = 0; i < g.cells[0]; ++i) {
+          if (owner[i] == mixed_cell && is_residue(b, i, j, k)) {
+            residues[static_cast<std::size_t>(s * g.rows_per_slab() + q)].push_back(i);
+          }
+        }
+      }
+    }
+  });
+  long count = 0;
+  std::vector<double> rho(1);
+  for (int s = 0; s < g.slabs(); ++s) {
+    for (int q = 0; q < g.rows_per_slab(); ++q) {
+      const auto& cells = residues[static_cast<std::size_t>(s * g.rows_per_slab() + q)];
+      const auto [j, k] = g.in_slab(s, q);
+      const int r = g.cell_row(j, k);
+      for (const int i : cells) {
+        close_void(b, r, i);
+        mixed_state(b, r, i, rho);
+      }
+      if (!cells.empty()) {
+        compute_owner(b, r);
+      }
+      count += static_cast<long>(cells.size());
+    }
+  }
+  return count;
+}
 
 template <int Dim> long open_voids(Block<Dim>& b, ThreadPool& pool) {
   const bool any = std::any_of(b.materials.begin(), b.materials.end(),
@@ -324,6 +406,8 @@ template <int Dim> Totals totals(const Block<Dim>& b) {
 
 template void update_state<2>(Block<2>&, ThreadPool&);
 template void update_state<3>(Block<3>&, ThreadPool&);
+template long close_voids<2>(Block<2>&, ThreadPool&);
+template long close_voids<3>(Block<3>&, ThreadPool&);
 template long open_voids<2>(Block<2>&, ThreadPool&);
 template long open_voids<3>(Block<3>&, ThreadPool&);
 template Totals totals<2>(const Block<2>&);

@@ -24,7 +24,7 @@ std::vector<double> pack(const Ledger& l) {
   std::vector<double> v = {l.boundary_work, l.ambient_work, l.void_work, l.remap_kinetic_loss, l.remap_kinetic_return,
                            l.energy_out, l.momentum_out[0], l.momentum_out[1], l.momentum_out[2], l.sliver_energy,
                            l.sliver_mass, static_cast<double>(l.slivers), static_cast<double>(l.spalled_cells),
-                           static_cast<double>(l.energy_floors), static_cast<double>(l.retries)};
+                           static_cast<double>(l.energy_floors), static_cast<double>(l.retries), static_cast<double>(l.closed_voids)};
   v.insert(v.end(), l.mass_out.begin(), l.mass_out.end());
   return v;
 }
@@ -43,7 +43,8 @@ void unpack(const std::vector<double>& v, Ledger& l) {
   l.spalled_cells = static_cast<long>(v.at(12));
   l.energy_floors = static_cast<long>(v.at(13));
   l.retries = static_cast<long>(v.at(14));
-  l.mass_out.assign(v.begin() + 15, v.end());
+  l.closed_voids = static_cast<long>(v.at(15));
+  l.mass_out.assign(v.begin() + 16, v.end());
 }
 
 } // namespace

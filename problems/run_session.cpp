@@ -344,7 +344,7 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
   j["conservation_errors"] = {{"mass_relative", mass_error},
                               {"energy_relative", a.unaccounted / std::max(std::abs(memory_.energy_start), 1e-300)}};
   j["floors"] = {{"slivers_dropped", l.slivers}, {"sliver_mass_kg", l.sliver_mass}, {"energy_return_cut", l.energy_floors},
-                 {"spalled_cells", l.spalled_cells}, {"step_retries", l.retries}};
+                 {"spalled_cells", l.spalled_cells}, {"void_residues_closed", l.closed_voids}, {"step_retries", l.retries}};
   const Results& res = spec_.results;
   if (!res.bullet.empty()) {
     const BodyMeasure m = measure_body(b, bullet_slots(), res.shot_axis, res.shot_direction);

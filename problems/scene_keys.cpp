@@ -454,7 +454,7 @@ const SectionSpec& numerics() {
         .kind = quantity,
         .doc = "viscous hourglass coefficient",
         .range = {0, 1},
-        .fallback = "0.01"},
+        .fallback = "0.06"},
        {.name = "energy_return",
         .kind = choice,
         .doc = "kinetic energy lost in the remap becomes heat; auto: on in scenes without strength",

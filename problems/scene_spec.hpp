@@ -43,7 +43,7 @@ struct MethodSpec {
   Closure closure = Closure::pressure_relaxation;
   double quadratic_q = 1.0; ///< factor on the Kuropatenko coefficient (g+1)/4
   double linear_q = 0.5;    ///< factor on the sound speed
-  double hourglass = 0.01;  ///< Flanagan-Belytschko, viscous
+  double hourglass = 0.06;  ///< Flanagan-Belytschko, viscous
   /// Kinetic energy lost in the remap goes back to heat. automatic: on without strength, off with
   /// it.
   Switch energy_return = Switch::automatic;
