@@ -14,7 +14,7 @@ template <int Dim> void update_state(Block<Dim>& block, ThreadPool& pool);
 /// to zero pressure. Returns the number of cells.
 template <int Dim> long open_voids(Block<Dim>& block, ThreadPool& pool);
 
-/// Closes void residues (below 1e-3 of a cell) that a remap's reconstruction left inside a body, where that
+/// Closes void residues (below 1e-2 of a cell) that a remap's reconstruction left inside a body, where that
 /// does not bring a material to its spall pressure. No mass or energy moves. Returns the number of cells.
 template <int Dim> long close_voids(Block<Dim>& block, ThreadPool& pool);
 

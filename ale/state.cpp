@@ -200,7 +200,7 @@ template <int Dim> void open_void(Block<Dim>& b, int r, int i) {
 /// A void residue that reconstruction left inside a body: small, no pure void beside the cell, and closing
 /// it would not bring any material to its spall pressure. It would cut the body's tension for good.
 template <int Dim> bool is_residue(const Block<Dim>& b, int i, int j, int k) {
-  constexpr double largest_residue = 1e-3;
+  constexpr double largest_residue = 1e-2; // about the spall strain of metals, p_spall / K; the law is below
   const Grid& g = b.grid;
   const int r = g.cell_row(j, k), hole = b.void_index();
   const double gap = b.materials[static_cast<std::size_t>(hole)].store.row(field::fraction, r)[i];
