@@ -65,6 +65,27 @@ struct V3 {
   double x, y, z;
 };
 
+/// Four times a component of the mid line of an axis.
+template <int Axis> [[gnu::always_inline]] inline double mid(const double (&c)[8]) {
+  return Axis == 0   ? c[1] + c[2] + c[5] + c[6] - c[0] - c[3] - c[4] - c[7]
+         : Axis == 1 ? c[3] + c[2] + c[7] + c[6] - c[0] - c[1] - c[4] - c[5]
+                     : c[4] + c[5] + c[6] + c[7] - c[0] - c[1] - c[2] - c[3];
+}
+
+/// Velocity gradient times volume, off-diagonals summed in pairs.
+struct Rate {
+  double xx, yy, zz, xy, yz, xz;
+};
+[[gnu::always_inline]] inline double rate_along(const V3& t, const Rate& g) {
+  return (t.x * t.x * g.xx + t.y * t.y * g.yy + t.z * t.z * g.zz + t.x * t.y * g.xy + t.y * t.z * g.yz +
+          t.x * t.z * g.xz) /
+         (t.x * t.x + t.y * t.y + t.z * t.z);
+}
+[[gnu::always_inline]] inline double area_of(const V3& a, const V3& c) {
+  const double nx = a.y * c.z - a.z * c.y, ny = a.z * c.x - a.x * c.z, nz = a.x * c.y - a.y * c.x;
+  return std::sqrt(nx * nx + ny * ny + nz * nz);
+}
+
 void rates(Block<3>& b, int j, int k) {
   const Grid& g = b.grid;
   static constexpr int line_of[8] = {0, 0, 1, 1, 2, 2, 3, 3}, step_of[8] = {0, 1, 1, 0, 0, 1, 1, 0};
@@ -83,51 +104,48 @@ void rates(Block<3>& b, int j, int k) {
 #pragma omp simd
   for (int i = 0; i < g.cells[0]; ++i) {
     HexGeometry h;
-    double w[3][8];
+    double ux[8], uy[8], uz[8];
 #pragma GCC unroll 8
     for (int p = 0; p < 8; ++p) {
       const int l = line_of[p], s = i + step_of[p];
       h.x[p] = x[0][l][s];
       h.y[p] = x[1][l][s];
       h.z[p] = x[2][l][s];
-      w[0][p] = u[0][l][s];
-      w[1][p] = u[1][l][s];
-      w[2][p] = u[2][l][s];
+      ux[p] = u[0][l][s];
+      uy[p] = u[1][l][s];
+      uz[p] = u[2][l][s];
     }
     double sx[8], sy[8], sz[8], xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
     h.gradient(sx, sy, sz);
 #pragma GCC unroll 8
     for (int p = 0; p < 8; ++p) {
-      xx += w[0][p] * sx[p];
-      yy += w[1][p] * sy[p];
-      zz += w[2][p] * sz[p];
-      xy += w[0][p] * sy[p] + w[1][p] * sx[p];
-      yz += w[1][p] * sz[p] + w[2][p] * sy[p];
-      xz += w[0][p] * sz[p] + w[2][p] * sx[p];
+      xx += ux[p] * sx[p];
+      yy += uy[p] * sy[p];
+      zz += uz[p] * sz[p];
+      xy += ux[p] * sy[p] + uy[p] * sx[p];
+      yz += uy[p] * sz[p] + uz[p] * sy[p];
+      xz += ux[p] * sz[p] + uz[p] * sx[p];
     }
-    const auto mid = [&](const double(&c)[8], int axis) {
-      return axis == 0   ? c[1] + c[2] + c[5] + c[6] - c[0] - c[3] - c[4] - c[7]
-             : axis == 1 ? c[3] + c[2] + c[7] + c[6] - c[0] - c[1] - c[4] - c[5]
-                         : c[4] + c[5] + c[6] + c[7] - c[0] - c[1] - c[2] - c[3];
-    };
-    const V3 t0{mid(h.x, 0), mid(h.y, 0), mid(h.z, 0)}, t1{mid(h.x, 1), mid(h.y, 1), mid(h.z, 1)},
-        t2{mid(h.x, 2), mid(h.y, 2), mid(h.z, 2)};
-    const auto along = [&](const V3& t, const V3& a, const V3& c, double& e, double& l) {
-      const double nx = a.y * c.z - a.z * c.y, ny = a.z * c.x - a.x * c.z, nz = a.x * c.y - a.y * c.x;
-      e = (t.x * t.x * xx + t.y * t.y * yy + t.z * t.z * zz + t.x * t.y * xy + t.y * t.z * yz + t.x * t.z * xz) /
-          ((t.x * t.x + t.y * t.y + t.z * t.z) * volume[i]);
-      l = 16 * volume[i] / std::sqrt(nx * nx + ny * ny + nz * nz);
-    };
-    along(t0, t1, t2, e0[i], l0[i]);
-    along(t1, t2, t0, e1[i], l1[i]);
-    along(t2, t0, t1, e2[i], l2[i]);
+    const V3 t0{mid<0>(h.x), mid<0>(h.y), mid<0>(h.z)}, t1{mid<1>(h.x), mid<1>(h.y), mid<1>(h.z)},
+        t2{mid<2>(h.x), mid<2>(h.y), mid<2>(h.z)};
+    const Rate g6{xx, yy, zz, xy, yz, xz};
+    const double v = volume[i];
+    e0[i] = rate_along(t0, g6) / v;
+    e1[i] = rate_along(t1, g6) / v;
+    e2[i] = rate_along(t2, g6) / v;
+    l0[i] = 16 * v / area_of(t1, t2);
+    l1[i] = 16 * v / area_of(t2, t0);
+    l2[i] = 16 * v / area_of(t0, t1);
   }
 }
 
-double limiter(double e, double below, double above) {
+[[gnu::always_inline]] inline double limiter(double e, double below, double above) {
   const double safe = std::abs(e) > 1e-300 ? e : 1e-300;
   const double low = below / safe, high = above / safe;
-  return std::max(0.0, std::min({0.5 * (low + high), 2 * low, 2 * high, 1.0}));
+  // Conditionals, not std::min: references to temporaries would keep the loop from vectorising.
+  const double mean = 0.5 * (low + high), least = low < high ? 2 * low : 2 * high;
+  const double bound = mean < least ? mean : least;
+  return bound > 0 ? (bound < 1 ? bound : 1.0) : 0.0;
 }
 
 struct ViscosityCoefficients {
@@ -158,8 +176,22 @@ void viscosity_row(int count,
     const double speed = a + std::sqrt(a * a + lin * lin);
     const double active = jump > 0 ? speed : 0.0;
     viscosity[i] = density[i] * jump * active;
-    dt[i] = std::min(dt[i], length[i] / (active + std::sqrt(active * active + sound * sound) + 1e-300));
+    const double stable = length[i] / (active + std::sqrt(active * active + sound * sound) + 1e-300);
+    dt[i] = dt[i] < stable ? dt[i] : stable;
   }
+}
+
+/// The cell of a row that strains fastest, as a limit of the step.
+template <int Dim> DtLimit fastest_cell(const Block<Dim>& b, int j, int k, double dt, double fastest) {
+  const int r = b.grid.cell_row(j, k);
+  for (int i = 0; i < b.grid.cells[0]; ++i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (std::abs(b.strain_rate[d].row(r)[i]) == fastest) {
+        return {dt, 0, {i, j, k}, b.owner_row(r)[i], DtCause::volume_change};
+      }
+    }
+  }
+  return {dt, 0, {-1, j, k}, -1, DtCause::volume_change};
 }
 
 } // namespace
@@ -205,15 +237,17 @@ template <int Dim> DtLimit stable_dt(Scene<Dim>& scene) {
             limit = {n.cfl * *low, static_cast<int>(ib), {i, j, k}, b.owner_row(r)[i],
                      viscous ? DtCause::viscosity : DtCause::sound};
           }
-          for (int cell = 0; cell < g.cells[0]; ++cell) {
-            double rate = 0;
-            for (std::size_t d = 0; d < Dim; ++d) {
-              rate = std::max(rate, std::abs(b.strain_rate[d].row(r)[cell]));
+          double fastest = 0;
+          for (std::size_t d = 0; d < Dim; ++d) {
+            const double* e = b.strain_rate[d].row(r);
+#pragma omp simd reduction(max : fastest)
+            for (int cell = 0; cell < g.cells[0]; ++cell) {
+              fastest = std::max(fastest, std::abs(e[cell]));
             }
-            if (n.max_volume_change < limit.dt * rate) {
-              limit = {n.max_volume_change / rate, static_cast<int>(ib), {cell, j, k},
-                       b.owner_row(r)[cell], DtCause::volume_change};
-            }
+          }
+          if (n.max_volume_change < limit.dt * fastest) {
+            limit = fastest_cell(b, j, k, n.max_volume_change / fastest, fastest);
+            limit.block = static_cast<int>(ib);
           }
         }
       }
