@@ -48,6 +48,42 @@ void place_nodes(Block<Dim>& b, const std::array<std::vector<double>, 3>& lines)
   }
 }
 
+/// Mass of the nodes of row (j, k) from the rows of cells around it.
+template <int Dim> void gather_node_mass(Block<Dim>& b, int j, int k) {
+  const Grid& g = b.grid;
+  double* m = b.node_mass.row(g.node_row(j, k));
+  std::fill(m, m + g.cells[0] + 1, 0.0);
+  const double* low0 = b.low_share[0].data() + g.ghost[0];
+  for (int side = 0; side < (1 << (Dim - 1)); ++side) {
+    const int dj = side & 1, dk = side >> 1; // 1: the cells below the node
+    const int cj = j - dj, ck = k - dk;
+    if (cj < 0 || cj >= g.cells[1] || ck < 0 || ck >= g.cells[2]) {
+      continue;
+    }
+    const auto share = [&](std::size_t axis, int cell, int high) {
+      const double low = b.low_share[axis][static_cast<std::size_t>(cell + g.ghost[axis])];
+      return high ? 1 - low : low;
+    };
+    double row_share = share(1, cj, dj);
+    if constexpr (Dim == 3) {
+      row_share *= share(2, ck, dk);
+    }
+    const int r = g.cell_row(cj, ck);
+    for (const MaterialSlot& slot : b.materials) {
+      if (slot.is_void || !slot.store.has_row(r)) {
+        continue;
+      }
+      const double* mass = slot.store.row(field::mass, r);
+      for (int i = 0; i < g.cells[0]; ++i) {
+        m[i] += row_share * (low0[i] * mass[i]);
+      }
+      for (int i = 0; i < g.cells[0]; ++i) {
+        m[i + 1] += row_share * ((1 - low0[i]) * mass[i]);
+      }
+    }
+  }
+}
+
 } // namespace
 
 template <int Dim>
@@ -94,35 +130,16 @@ void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lin
   exchange_cells(g, b.volume);
 }
 
-template <int Dim> void compute_node_mass(Block<Dim>& b) {
+template <int Dim> void compute_node_mass(Block<Dim>& b, ThreadPool& pool) {
   const Grid& g = b.grid;
-  std::fill(b.node_mass.data().begin(), b.node_mass.data().end(), 0.0);
-  for (int k = 0; k < g.cells[2]; ++k) {
-    for (int j = 0; j < g.cells[1]; ++j) {
-      const int r = g.cell_row(j, k);
-      for (int corner = 0; corner < (1 << Dim); ++corner) {
-        const int di = corner & 1, dj = (corner >> 1) & 1, dk = (corner >> 2) & 1;
-        const auto share = [&](std::size_t axis, int cell, int high) {
-          const double low = b.low_share[axis][static_cast<std::size_t>(cell + g.ghost[axis])];
-          return high ? 1 - low : low;
-        };
-        double row_share = share(1, j, dj);
-        if constexpr (Dim == 3) {
-          row_share *= share(2, k, dk);
-        }
-        double* m = b.node_mass.row(g.node_row(j + dj, k + dk));
-        for (const MaterialSlot& slot : b.materials) {
-          if (slot.is_void || !slot.store.has_row(r)) {
-            continue;
-          }
-          const double* mass = slot.store.row(field::mass, r);
-          for (int i = 0; i < g.cells[0]; ++i) {
-            m[i + di] += row_share * share(0, i, di) * mass[i];
-          }
-        }
+  const int planes = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
+  parallel_ranges(pool, planes, [&](int begin, int end, int) {
+    for (int plane = begin; plane < end; ++plane) {
+      for (int q = 0; q < rows; ++q) {
+        gather_node_mass(b, Dim == 3 ? q : plane, Dim == 3 ? plane : 0);
       }
     }
-  }
+  });
 }
 
 template <int Dim> void compute_owner(Block<Dim>& b, int row) {
@@ -199,8 +216,8 @@ void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, in
 
 template void allocate_block<2>(Block<2>&, const std::array<std::vector<double>, 3>&);
 template void allocate_block<3>(Block<3>&, const std::array<std::vector<double>, 3>&);
-template void compute_node_mass<2>(Block<2>&);
-template void compute_node_mass<3>(Block<3>&);
+template void compute_node_mass<2>(Block<2>&, ThreadPool&);
+template void compute_node_mass<3>(Block<3>&, ThreadPool&);
 template void compute_owner<2>(Block<2>&, int);
 template void compute_owner<3>(Block<3>&, int);
 

@@ -8,6 +8,7 @@
 
 #include "core/boundary.hpp"
 #include "core/grid.hpp"
+#include "core/threads.hpp"
 #include "core/tile_store.hpp"
 #include "materials/material.hpp"
 
@@ -101,7 +102,7 @@ void cell_volumes(const Block<2>& b, const std::array<RowField, 2>& x, int j, in
 void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, int k, double* volume);
 
 /// Node masses from cell masses: M_p = sum of the cells' shares.
-template <int Dim> void compute_node_mass(Block<Dim>& block);
+template <int Dim> void compute_node_mass(Block<Dim>& block, ThreadPool& pool);
 
 /// owner from the volume fractions; fractions of a cell made to sum to one, the largest absorbing round-off.
 template <int Dim> void compute_owner(Block<Dim>& block, int row);

@@ -58,12 +58,15 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   const remap::Settings settings{.normal = scene.numerics.normal, .return_kinetic = scene.numerics.energy_return};
   const remap::Report report = remap::remap(mesh, settings, *scene.pool, step / b.motion.remap_every);
   const Grid& g = b.grid;
-  for (int k = 0; k < g.cells[2]; ++k) {
-    for (int j = 0; j < g.cells[1]; ++j) {
-      cell_volumes(b, b.position, j, k, b.volume.row(g.cell_row(j, k)));
+  parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        cell_volumes(b, b.position, j, k, b.volume.row(g.cell_row(j, k)));
+      }
     }
-  }
-  compute_node_mass(b);
+  });
+  compute_node_mass(b, *scene.pool);
   rest_massless_nodes(b);
   if (b.any_strength()) {
     pull_back_to_yield(b, *scene.pool);

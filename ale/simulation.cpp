@@ -58,7 +58,7 @@ void Clock::advance() {
 template <int Dim> void prepare(Scene<Dim>& scene) {
   for (Block<Dim>& b : scene.blocks) {
     scene.ledger.mass_out.resize(std::max(scene.ledger.mass_out.size(), b.materials.size()), 0.0);
-    compute_node_mass(b);
+    compute_node_mass(b, *scene.pool);
     for (std::size_t d = 0; d < Dim; ++d) {
       exchange_nodes(b.grid, b.boundary, static_cast<int>(d), b.velocity[d]);
     }

@@ -6,7 +6,9 @@
 // with a = quadratic_q * 2/3 (the (gamma+1)/4 of a 5/3 gas; s/2 of a solid is 0.7) and b = linear_q. The
 // limiter psi = max(0, min((r_l + r_r)/2, 2 r_l, 2 r_r, 1)) compares e with the two neighbours along the
 // axis and leaves smooth (linear) compression alone.
-// dt = cfl L / (Q + sqrt(Q^2 + c^2)) with Q = q / (rho |du|).
+// dt = cfl L / sqrt(c^2 + (2 Q)^2) with Q = q / (rho |du|): at most 1.15 of the explicit limit of a damped
+// oscillator, L / (Q + sqrt(Q^2 + c^2)), for a CFL number of one.
+#include "ale/corner_force.hpp"
 #include "ale/phases.hpp"
 #include "core/hex_geometry.hpp"
 
@@ -86,56 +88,59 @@ struct Rate {
   return std::sqrt(nx * nx + ny * ny + nz * nz);
 }
 
+/// Rates and lengths of one hexahedron. A function of its own: locals of the row loop itself would become
+/// per-lane arrays and keep it from vectorising.
+struct HexRates {
+  double rate[3], length[3];
+};
+[[gnu::always_inline]] inline HexRates hex_rates(const ForceRows<3>& in, int i) {
+  static constexpr int line_of[8] = {0, 0, 1, 1, 2, 2, 3, 3}, step_of[8] = {0, 1, 1, 0, 0, 1, 1, 0};
+  HexGeometry h;
+  double ux[8], uy[8], uz[8];
+#pragma GCC unroll 8
+  for (int p = 0; p < 8; ++p) {
+    const int l = line_of[p], s = i + step_of[p];
+    h.x[p] = in.x[0][l][s];
+    h.y[p] = in.x[1][l][s];
+    h.z[p] = in.x[2][l][s];
+    ux[p] = in.u[0][l][s];
+    uy[p] = in.u[1][l][s];
+    uz[p] = in.u[2][l][s];
+  }
+  double sx[8], sy[8], sz[8];
+  Rate g{0, 0, 0, 0, 0, 0};
+  h.gradient(sx, sy, sz);
+#pragma GCC unroll 8
+  for (int p = 0; p < 8; ++p) {
+    g.xx += ux[p] * sx[p];
+    g.yy += uy[p] * sy[p];
+    g.zz += uz[p] * sz[p];
+    g.xy += ux[p] * sy[p] + uy[p] * sx[p];
+    g.yz += uy[p] * sz[p] + uz[p] * sy[p];
+    g.xz += ux[p] * sz[p] + uz[p] * sx[p];
+  }
+  const V3 t0{mid<0>(h.x), mid<0>(h.y), mid<0>(h.z)}, t1{mid<1>(h.x), mid<1>(h.y), mid<1>(h.z)},
+      t2{mid<2>(h.x), mid<2>(h.y), mid<2>(h.z)};
+  const double v = in.volume[i];
+  return {{rate_along(t0, g) / v, rate_along(t1, g) / v, rate_along(t2, g) / v},
+          {16 * v / area_of(t1, t2), 16 * v / area_of(t2, t0), 16 * v / area_of(t0, t1)}};
+}
+
 void rates(Block<3>& b, int j, int k) {
   const Grid& g = b.grid;
-  static constexpr int line_of[8] = {0, 0, 1, 1, 2, 2, 3, 3}, step_of[8] = {0, 1, 1, 0, 0, 1, 1, 0};
-  const double *x[3][4], *u[3][4];
-  for (std::size_t d = 0; d < 3; ++d) {
-    for (int l = 0; l < 4; ++l) {
-      const int nodes = g.node_row(j + (l & 1), k + (l >> 1));
-      x[d][l] = b.position[d].row(nodes);
-      u[d][l] = b.velocity[d].row(nodes);
-    }
-  }
-  const int r = g.cell_row(j, k);
+  const ForceRows<3> in(b, j, k);
+  const int r = g.cell_row(j, k), count = g.cells[0];
   double *e0 = b.strain_rate[0].row(r), *e1 = b.strain_rate[1].row(r), *e2 = b.strain_rate[2].row(r);
   double *l0 = b.length[0].row(r), *l1 = b.length[1].row(r), *l2 = b.length[2].row(r);
-  const double* volume = b.volume.row(r);
 #pragma omp simd
-  for (int i = 0; i < g.cells[0]; ++i) {
-    HexGeometry h;
-    double ux[8], uy[8], uz[8];
-#pragma GCC unroll 8
-    for (int p = 0; p < 8; ++p) {
-      const int l = line_of[p], s = i + step_of[p];
-      h.x[p] = x[0][l][s];
-      h.y[p] = x[1][l][s];
-      h.z[p] = x[2][l][s];
-      ux[p] = u[0][l][s];
-      uy[p] = u[1][l][s];
-      uz[p] = u[2][l][s];
-    }
-    double sx[8], sy[8], sz[8], xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
-    h.gradient(sx, sy, sz);
-#pragma GCC unroll 8
-    for (int p = 0; p < 8; ++p) {
-      xx += ux[p] * sx[p];
-      yy += uy[p] * sy[p];
-      zz += uz[p] * sz[p];
-      xy += ux[p] * sy[p] + uy[p] * sx[p];
-      yz += uy[p] * sz[p] + uz[p] * sy[p];
-      xz += ux[p] * sz[p] + uz[p] * sx[p];
-    }
-    const V3 t0{mid<0>(h.x), mid<0>(h.y), mid<0>(h.z)}, t1{mid<1>(h.x), mid<1>(h.y), mid<1>(h.z)},
-        t2{mid<2>(h.x), mid<2>(h.y), mid<2>(h.z)};
-    const Rate g6{xx, yy, zz, xy, yz, xz};
-    const double v = volume[i];
-    e0[i] = rate_along(t0, g6) / v;
-    e1[i] = rate_along(t1, g6) / v;
-    e2[i] = rate_along(t2, g6) / v;
-    l0[i] = 16 * v / area_of(t1, t2);
-    l1[i] = 16 * v / area_of(t2, t0);
-    l2[i] = 16 * v / area_of(t0, t1);
+  for (int i = 0; i < count; ++i) {
+    const HexRates h = hex_rates(in, i);
+    e0[i] = h.rate[0];
+    e1[i] = h.rate[1];
+    e2[i] = h.rate[2];
+    l0[i] = h.length[0];
+    l1[i] = h.length[1];
+    l2[i] = h.length[2];
   }
 }
 
@@ -164,6 +169,7 @@ void viscosity_row(int count,
                    const double* modulus,
                    double* viscosity,
                    double* dt) {
+  const double quadratic = c.quadratic, linear = c.linear;
 #pragma omp simd
   for (int i = 0; i < count; ++i) {
     const double e = here[i];
@@ -172,11 +178,11 @@ void viscosity_row(int count,
     // gas (p = 0) has none either, but no sound in it: there the quadratic term must act.
     const bool stiff = modulus[i] > 0 || (density[i] > 0 && !(sound > 0));
     const double jump = e < 0 && stiff ? -e * length[i] * (1 - limiter(e, below[i], above[i])) : 0.0;
-    const double a = c.quadratic * jump, lin = c.linear * sound;
+    const double a = quadratic * jump, lin = linear * sound;
     const double speed = a + std::sqrt(a * a + lin * lin);
     const double active = jump > 0 ? speed : 0.0;
     viscosity[i] = density[i] * jump * active;
-    const double stable = length[i] / (active + std::sqrt(active * active + sound * sound) + 1e-300);
+    const double stable = length[i] / (std::sqrt(4 * active * active + sound * sound) + 1e-300);
     dt[i] = dt[i] < stable ? dt[i] : stable;
   }
 }

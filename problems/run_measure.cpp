@@ -84,6 +84,9 @@ double cavity_radius(const Block<Dim>& b, int target, int axis, double from, dou
       continue;
     }
     const double* f = store.row(field::fraction, g.cell_row(j, k));
+    if (*std::max_element(f, f + g.cells[0]) < 0.999) {
+      continue; // no target across here: in front of it, behind it, or gone to the mesh's edge
+    }
     double area = 0, length = 0;
     for (int i = 0; i < g.cells[0] && f[i] < 0.999; ++i) {
       const auto r = cell_range(b, 0, i, j, k);

@@ -30,7 +30,8 @@ inline double slope(
   const double a = std::abs(below), b = std::abs(above), c = std::abs(central);
   const double bound = a < b ? a : b;
   const double least = c < bound ? c : bound;
-  const double same_sign = below * above > 0 ? least : 0.0;
+  // By sign, not by product: that would overflow beside empty cells.
+  const double same_sign = std::copysign(1.0, below) * std::copysign(1.0, above) > 0 ? least : 0.0;
   return std::copysign(unlimited > 0 ? c : same_sign, central);
 }
 
