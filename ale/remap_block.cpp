@@ -35,6 +35,8 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
     for (int side = 0; side < 2; ++side) {
       const auto a = static_cast<std::size_t>(axis), s = static_cast<std::size_t>(side);
       m.open[a][s] = b.boundary.open(axis, side);
+      m.fixed[a][s] = b.boundary.fixes_normal_velocity(axis, side);
+      m.fixed_velocity[a][s] = b.boundary.at(axis, side).velocity;
       m.void_outside[a][s] = b.boundary.at(axis, side).kind == BoundaryKind::free;
     }
   }

@@ -22,6 +22,10 @@ template <int Dim> struct Mesh {
   bool axisymmetric = false;
   std::array<std::array<bool, 2>, 3> open{};         ///< sides material may cross
   std::array<std::array<bool, 2>, 3> void_outside{}; ///< open sides behind which there is void
+  /// Sides that prescribe the velocity along their axis, and that velocity (m/s): their nodes keep it, what
+  /// momentum the remap brings them goes to the wall.
+  std::array<std::array<bool, 2>, 3> fixed{};
+  std::array<std::array<double, 2>, 3> fixed_velocity{};
   std::array<RowField, Dim>& position;               ///< in: where the nodes are; out: the target
   const std::array<RowField, Dim>& target;
   RowField& volume;      ///< m3; out: volumes swept to the target

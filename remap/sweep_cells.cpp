@@ -19,7 +19,7 @@ namespace ballast::remap {
 
 namespace {
 
-constexpr double sliver_fraction = 1e-12; ///< below it a material is round-off and is dropped, with a count
+constexpr double sliver_fraction = 1e-14; ///< below it a material is round-off and is dropped, with a count
 constexpr double flush_fraction = 1e-6;   ///< a donor left with less than this gives it all
 constexpr double slope_fraction = 0.999;  ///< a donor holding less has no slope
 constexpr double neighbour_fraction = 0.01;

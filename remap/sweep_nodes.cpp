@@ -103,8 +103,34 @@ public:
       }
     }
     boundary_sums(j, k, low, high, step, sums);
+    hold_walls(j, k, sums);
     for (int i = 0; i < nodes_; ++i) {
       sums.loss += loss[i];
+    }
+  }
+
+  /// Nodes of a wall keep its velocity; their excess kinetic energy is loss, their momentum the wall's.
+  void hold_walls(int j, int k, SlabSums& sums) {
+    const Grid& g = m_.grid;
+    const int r = g.node_row(j, k), index[3] = {0, j, k};
+    const double* mass = next_mass_row(r);
+    double* loss = loss_.row(r);
+    for (std::size_t axis = 0; axis < Dim; ++axis) {
+      double* u = m_.next_velocity[axis].row(r);
+      for (std::size_t side = 0; side < 2; ++side) {
+        const int at = side == 0 ? 0 : g.cells[axis];
+        if (!m_.fixed[axis][side] || (axis > 0 && index[axis] != at)) {
+          continue;
+        }
+        const double want = m_.fixed_velocity[axis][side];
+        for (int i = axis == 0 ? at : 0; i < (axis == 0 ? at + 1 : nodes_); ++i) {
+          if (u[i] != want) {
+            loss[i] += 0.5 * mass[i] * (u[i] * u[i] - want * want);
+            sums.momentum_out[axis] += mass[i] * (u[i] - want);
+            u[i] = want;
+          }
+        }
+      }
     }
   }
 

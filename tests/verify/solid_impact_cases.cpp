@@ -134,6 +134,8 @@ void carry(VerifyReport& r, int remap_every) {
     r.at_most(fmt::format("N {}: mass of {}", remap_every, b.materials[m].material.name), 1e-12,
               std::abs(end.mass[m] - start.mass[m]) / start.mass[m]);
   }
+  r.note(fmt::format("N {}: dropped slivers / mass", remap_every), scene.ledger.sliver_mass / (start.mass[0] + start.mass[1]));
+  r.note(fmt::format("N {}: left the block / mass", remap_every), (scene.ledger.mass_out[0] + scene.ledger.mass_out[1]) / (start.mass[0] + start.mass[1]));
   r.note(fmt::format("N {}: shape, L1 of fraction / volume", remap_every), error / volume);
   r.note(fmt::format("N {}: speed / 823 m/s - 1", remap_every), all.velocity / speed - 1);
   r.set_cells(b.grid.cell_count());
