@@ -3,7 +3,8 @@
 # Safe to call again: what is there is left alone. Sets nothing up outside apt and build/.
 
 ballast_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-ballast_build="$ballast_root/build/release"
+ballast_preset=release
+ballast_build="$ballast_root/build/$ballast_preset"
 
 # What find_package and the includes ask for. SUNDIALS (tissue viscoelasticity) is installed but not
 # linked as yet; the font is for the report's pictures, which are drawn without an X server.
@@ -99,18 +100,18 @@ parallel_jobs() {
   printf '%s' "$((cores > 0 ? cores : 1))"
 }
 
-# build TARGET...: configures preset release and builds the targets.
+# build TARGET...: configures the preset and builds the targets.
 build() {
   local log="$ballast_root/build/configure.log"
   # Objects compiled in another checkout serve here too.
   export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$ballast_root}"
   mkdir -p "$ballast_root/build"
-  say "configuring preset release"
-  (cd "$ballast_root" && cmake --preset release) >"$log" 2>&1 || {
+  say "configuring preset $ballast_preset"
+  (cd "$ballast_root" && cmake --preset "$ballast_preset") >"$log" 2>&1 || {
     tail -n 30 "$log" >&2
     stop "cmake failed (above; all of it in build/configure.log)."
   }
-  say "building target $* in build/release"
+  say "building target $* in build/$ballast_preset"
   nice -n 10 cmake --build "$ballast_build" --parallel "$(parallel_jobs)" --target "$@" ||
     stop "the build failed (above)."
 }
