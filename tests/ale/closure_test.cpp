@@ -1,0 +1,75 @@
+// Laws of the mixed-cell closure: shares add up, energy closes, void takes what is left.
+#include "ale/closure.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace ballast {
+namespace {
+
+MixedCell two_materials() {
+  MixedCell c;
+  c.count = 2;
+  c.part[0] = {0, false, 0.3, 300, 1e5, 2e8, 1e11, 4000};
+  c.part[1] = {1, false, 0.7, 70, 2e5, 1e6, 2e9, 1500};
+  return c;
+}
+
+CellMotion motion_of(const MixedCell& c, double change) {
+  const CellPressure p = mixed_pressure(c, 0);
+  return {1.0, change, change, 0.5 * change, p.pressure, p.modulus, 1e-7};
+}
+
+class EveryClosure : public ::testing::TestWithParam<Closure> {};
+
+TEST_P(EveryClosure, SharesSumToTheCellsChangeAndWork) {
+  for (const double change : {-0.01, 0.0, 0.02}) {
+    MixedCell c = two_materials();
+    const CellMotion m = motion_of(c, change);
+    share_volume_change(GetParam(), m, c);
+    const double dv = c.part[0].volume_change + c.part[1].volume_change;
+    const double work = c.part[0].work + c.part[1].work;
+    const double want = -(m.pressure - m.modulus * m.compression) * m.swept_volume;
+    EXPECT_NEAR(dv, change, 1e-15);
+    EXPECT_NEAR(work, want, 1e-13 * (std::abs(want) + 1e6));
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_GT(c.part[k].volume + c.part[k].volume_change, 0);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryClosure,
+                         ::testing::Values(Closure::pressure_relaxation, Closure::tipton, Closure::equal_strain));
+
+TEST(Closure, RelaxationBringsPressuresTogether) {
+  MixedCell c = two_materials();
+  share_volume_change(Closure::pressure_relaxation, motion_of(c, 0), c);
+  EXPECT_GT(c.part[0].volume_change, 0); // the one at higher pressure expands
+  EXPECT_NEAR(c.part[0].pressure - c.part[0].modulus * c.part[0].volume_change / c.part[0].volume,
+              c.part[1].pressure - c.part[1].modulus * c.part[1].volume_change / c.part[1].volume,
+              1e-2 * c.part[0].pressure);
+}
+
+TEST(Closure, VoidAbsorbsCompressionFirst) {
+  MixedCell c;
+  c.count = 2;
+  c.part[0] = {0, false, 0.9, 900, 0, 0, 2e9, 1500};
+  c.part[1] = {1, true, 0.1};
+  share_volume_change(Closure::pressure_relaxation, {1.0, -0.05, -0.05, -0.025, 0, 0, 1e-7}, c);
+  EXPECT_EQ(c.part[0].volume_change, 0);
+  EXPECT_NEAR(c.part[1].volume_change, -0.05, 1e-16);
+}
+
+TEST(Closure, TensionBesideVoidOpensIt) {
+  MixedCell c;
+  c.count = 2;
+  c.part[0] = {0, false, 0.9, 900, 0, -2e7, 2e9, 1500};
+  c.part[1] = {1, true, 0.1};
+  share_volume_change(Closure::pressure_relaxation, {1.0, 0.01, 0.01, 0.005, 0, 0, 1e-7}, c);
+  EXPECT_NEAR(c.part[0].volume_change, -0.9 * 0.01, 1e-15); // back to zero pressure
+  EXPECT_NEAR(c.part[1].volume_change, 0.019, 1e-15);
+  EXPECT_EQ(c.part[0].work, 0);
+}
+
+} // namespace
+} // namespace ballast

@@ -1,0 +1,42 @@
+// Laws of the flow stress and the radial return.
+#include "materials/strength.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace ballast {
+namespace {
+
+TEST(RadialReturn, LinearHardeningStaysOnYieldSurface) {
+  const LinearHardening m{43e9, 0.4e9, 0.1e9};
+  for (const double trial : {0.44e9, 1e9, 30e9}) {
+    const FlowState s{0.3, 0, 1e-8};
+    const PlasticIncrement d = plastic_increment(m, s, trial);
+    EXPECT_NEAR(trial - 3 * m.shear_modulus * d.value, flow_stress(m, s, d.value), 1e-6 * trial);
+  }
+  EXPECT_EQ(plastic_increment(m, {0, 0, 1e-8}, 0.39e9).value, 0);
+}
+
+TEST(RadialReturn, JohnsonCookStaysOnYieldSurface) {
+  const JohnsonCook m{46e9, 90e6, 292e6, 0.31, 0.025, 1.09, 1, 293, 1356, 383};
+  for (const double trial : {1.0001, 1.5, 10.0, 1000.0}) {
+    for (const double strain : {0.0, 1e-9, 0.1, 3.0}) {
+      for (const double heat : {0.0, 1e5, 4e5, 1e6}) { // the last is molten
+        const FlowState s{strain, heat, 1e-8};
+        const double q = trial * (flow_stress(m, s, 0) + 1e3);
+        const PlasticIncrement d = plastic_increment(m, s, q);
+        EXPECT_TRUE(d.converged);
+        EXPECT_NEAR(q - 3 * m.shear_modulus * d.value, flow_stress(m, s, d.value), 1e-9 * q);
+      }
+    }
+  }
+}
+
+TEST(JohnsonCook, SoftensToNothingAtTheMeltingPoint) {
+  const JohnsonCook m{46e9, 90e6, 292e6, 0.31, 0.025, 1.09, 1, 293, 1356, 383};
+  EXPECT_GT(flow_stress(m, {0.1, 0, 0}, 0), flow_stress(m, {0.1, 2e5, 0}, 0));
+  EXPECT_EQ(flow_stress(m, {0.1, 383 * (1356 - 293.0), 0}, 0), 0);
+}
+
+} // namespace
+} // namespace ballast

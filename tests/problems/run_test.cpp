@@ -1,0 +1,107 @@
+// Laws of a run: the same bits for any number of threads and across a restart.
+#include "problems/run_checkpoint.hpp"
+#include "problems/scene_reader.hpp"
+#include "problems/build_scene.hpp"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace ballast {
+namespace {
+
+// A lead ball enters muscle, RZ, coarse: mixed cells, void, strength and spall are all in play.
+constexpr const char* deck = R"(
+title = "ball"
+geometry = "axisymmetric"
+end_time = "6 us"
+ambient = { pressure = "0 Pa" }
+[[body]]
+name = "ball"
+material = "lead"
+shape = { sphere = { centre = ["0 mm", "-3.5 mm"], radius = "3 mm" } }
+velocity = ["0 m/s", "600 m/s"]
+[[body]]
+name = "tissue"
+material = "muscle"
+shape = { box = { from = ["0 mm", "0 mm"], to = ["12 mm", "14 mm"] } }
+[mesh]
+r = { from = "0 mm", to = "14 mm", size = "0.7 mm" }
+z = { from = "-8 mm", to = "16 mm", size = "0.7 mm" }
+)";
+
+SceneSpec ball() {
+  Deck d = Deck::parse(deck, "ball.toml", {});
+  SceneSpec s = read_scene(d);
+  d.throw_if_errors();
+  return s;
+}
+
+std::vector<double> state_of(const Scene<2>& scene) {
+  const Block<2>& b = scene.blocks[0];
+  std::vector<double> all = b.velocity[0].data();
+  all.insert(all.end(), b.velocity[1].data().begin(), b.velocity[1].data().end());
+  for (int j = 0; j < b.grid.cells[1]; ++j) {
+    const int r = b.grid.cell_row(j, 0);
+    for (const MaterialSlot& slot : b.materials) {
+      for (int f = 0; f < slot.store.conserved(); ++f) {
+        const double* row = slot.store.row(f, r);
+        all.insert(all.end(), row, row + b.grid.cells[0]);
+      }
+    }
+  }
+  return all;
+}
+
+TEST(Run, SameBitsForAnyNumberOfThreads) {
+  const SceneSpec spec = ball();
+  std::vector<double> first;
+  for (const int threads : {1, 2, 3}) {
+    Scene<2> scene = build_scene<2>(spec, threads);
+    Clock clock;
+    clock.end_time = spec.end_time;
+    run(scene, clock);
+    EXPECT_GT(clock.step, 20);
+    const auto state = state_of(scene);
+    first = first.empty() ? state : first;
+    EXPECT_TRUE(state == first) << threads << " threads";
+  }
+}
+
+class StopAt : public Observer<2> {
+public:
+  explicit StopAt(long step) : step_(step) {}
+  bool record(const Scene<2>&, const Clock& clock) override { return clock.step < step_; }
+
+private:
+  long step_;
+};
+
+TEST(Run, RestartGoesOnBitForBit) {
+  const SceneSpec spec = ball();
+  Scene<2> whole = build_scene<2>(spec, 1);
+  Clock clock;
+  clock.end_time = spec.end_time;
+  run(whole, clock);
+
+  Scene<2> part = build_scene<2>(spec, 1);
+  Clock half;
+  half.end_time = spec.end_time;
+  StopAt stop(25);
+  EXPECT_FALSE(run(part, half, {&stop}));
+  const auto path = std::filesystem::temp_directory_path() / "ballast_restart_test.h5";
+  RunMemory memory;
+  memory.deck_hash = "x";
+  write_checkpoint(path, part, half, memory);
+
+  Scene<2> again = build_scene<2>(spec, 2);
+  Clock go_on;
+  go_on.end_time = spec.end_time;
+  read_checkpoint(path, again, go_on, memory);
+  std::filesystem::remove(path);
+  run(again, go_on);
+  EXPECT_EQ(go_on.step, clock.step);
+  EXPECT_TRUE(state_of(again) == state_of(whole));
+}
+
+} // namespace
+} // namespace ballast
