@@ -11,6 +11,7 @@
 #include "core/threads.hpp"
 #include "core/tile_store.hpp"
 #include "materials/material.hpp"
+#include "remap/mesh.hpp"
 
 #include <array>
 #include <cstdint>
@@ -77,6 +78,8 @@ template <int Dim> struct Block {
   std::array<RowField, Dim> strain_rate, length, viscosity; ///< along each logical axis
   std::array<RowField, Dim> swept, mass_flux;               ///< faces, at the cell above them
   std::vector<std::int8_t> owner; ///< the only material of a cell, or mixed_cell
+
+  remap::Scratch remap_scratch; ///< work arrays of the remap, nothing to remember
 
   std::vector<MaterialSlot> materials; ///< in priority order; void last
 

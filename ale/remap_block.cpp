@@ -25,6 +25,7 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
                      .materials = {},
                      .has_void = b.void_index() >= 0,
                      .owner = b.owner,
+                     .scratch = &b.remap_scratch,
                      .exchange_velocity = [&b](RowField& f, int component) {
                        exchange_nodes(b.grid, b.boundary, component, f);
                      }};

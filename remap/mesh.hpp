@@ -17,6 +17,11 @@
 
 namespace ballast::remap {
 
+/// Work arrays a block keeps between remaps; empty ones are allocated when needed.
+struct Scratch {
+  RowField cell_mass, node_loss, next_node_mass;
+};
+
 template <int Dim> struct Mesh {
   const Grid& grid;
   bool axisymmetric = false;
@@ -40,6 +45,7 @@ template <int Dim> struct Mesh {
   std::vector<TileStore*> materials;    ///< void last, if any
   bool has_void = false;
   std::vector<std::int8_t>& owner;                       ///< the only material of a cell, or -1
+  Scratch* scratch = nullptr; ///< optional: without it every sweep allocates its own
   std::function<void(RowField&, int)> exchange_velocity; ///< fills ghosts of a component
 
   std::int8_t* owner_row(int r) {

@@ -276,15 +276,15 @@ private:
 };
 
 /// Mass of all materials a cell (before the sweep: the coordinate in which velocities vary).
-template <int Dim> RowField total_mass(const Mesh<Dim>& m, ThreadPool& pool, bool next) {
+template <int Dim> void total_mass(const Mesh<Dim>& m, ThreadPool& pool, bool next, RowField& out) {
   const Grid& g = m.grid;
-  RowField out = RowField::of_cells(g);
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
         const int r = g.cell_row(j, k);
         double* sum = out.row(r);
+        std::fill(sum, sum + g.cells[0], 0.0);
         for (int mat = 0; mat < m.material_count(); ++mat) {
           TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
           if (m.is_void(mat) || !store.has_row(r)) {
@@ -301,7 +301,6 @@ template <int Dim> RowField total_mass(const Mesh<Dim>& m, ThreadPool& pool, boo
       }
     }
   });
-  return out;
 }
 
 constexpr double largest_fall = 0.5; ///< of a cell's internal energy that a negative return may take
@@ -371,8 +370,13 @@ void sweep_nodes(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int a
     m.exchange_velocity(m.velocity[d], static_cast<int>(d));
   }
   // The cells have been swept and swapped: their masses before the sweep are in the next rows.
-  const RowField cell_mass = total_mass(m, pool, true);
-  RowField loss = RowField::of_nodes(g), next_mass = RowField::of_nodes(g);
+  Scratch own;
+  Scratch& scratch = m.scratch ? *m.scratch : own;
+  if (scratch.cell_mass.empty()) {
+    scratch = {RowField::of_cells(g), RowField::of_nodes(g), RowField::of_nodes(g)};
+  }
+  RowField &cell_mass = scratch.cell_mass, &loss = scratch.node_loss, &next_mass = scratch.next_node_mass;
+  total_mass(m, pool, true, cell_mass);
   const int slabs = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
   std::vector<SlabSums> sums(static_cast<std::size_t>(slabs));
   parallel_ranges(pool, slabs, [&](int begin, int end, int) {
