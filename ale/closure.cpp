@@ -14,6 +14,37 @@ MixedCell::Part* void_part(MixedCell& cell) {
   return last && last->is_void && last->volume > 0 ? last : nullptr;
 }
 
+/// No material loses more than largest_part of its volume in a step: what a soft one (a gas beside metal)
+/// cannot give, the others give by compliance. Work moves with the volume at `pressure`, so sums stay.
+void cap_changes(MixedCell& cell, double pressure) {
+  bool capped[max_materials_in_cell] = {};
+  for (int pass = 0; pass < cell.count; ++pass) {
+    double excess = 0, compliance = 0;
+    for (int k = 0; k < cell.count; ++k) {
+      MixedCell::Part& p = cell.part[k];
+      const double least = -largest_part * p.volume;
+      if (!p.is_void && !capped[k] && p.volume_change < least) {
+        excess += p.volume_change - least;
+        p.work += pressure * (p.volume_change - least);
+        p.volume_change = least;
+        capped[k] = true;
+      }
+      compliance += p.is_void || capped[k] ? 0 : p.volume / p.modulus;
+    }
+    if (excess == 0 || compliance == 0) {
+      return; // nothing to move, or the whole cell is crushed: the step's own limits apply
+    }
+    for (int k = 0; k < cell.count; ++k) {
+      MixedCell::Part& p = cell.part[k];
+      if (!p.is_void && !capped[k]) {
+        const double d = excess * (p.volume / p.modulus) / compliance;
+        p.volume_change += d;
+        p.work -= pressure * d;
+      }
+    }
+  }
+}
+
 /// Materials beside void: void first, then by compliance; each relaxes towards the void's pressure.
 void share_with_void(const CellMotion& m, MixedCell& cell, MixedCell::Part& hole) {
   const int solids = cell.count - 1;
@@ -29,6 +60,7 @@ void share_with_void(const CellMotion& m, MixedCell& cell, MixedCell::Part& hole
     p.volume_change = compliance > 0 ? rest * (p.volume / p.modulus) / compliance : 0;
     p.work = -hole.pressure * p.volume_change; // the forces of the step were the void's
   }
+  cap_changes(cell, hole.pressure);
   // Materials in tension close up first and leave room, those under pressure then expand into it.
   for (const bool expanding : {false, true}) {
     double wanted = 0;
@@ -83,6 +115,7 @@ void relax(const CellMotion& m, MixedCell& cell) {
     p.volume_change = beta * m.volume_change + a * exchange[k];
     p.work = -(beta * (p.pressure - m.modulus * m.compression) * m.swept_volume + a * mean * exchange[k]);
   }
+  cap_changes(cell, m.pressure - m.modulus * m.compression);
 }
 
 /// Tipton 1989: stiffness raised by V/(c dt), one common half-step pressure.
@@ -110,6 +143,7 @@ void tipton(const CellMotion& m, MixedCell& cell) {
     p.volume_change = strain * m.volume_change + a * exchange[k];
     p.work = -p_half * (strain * m.swept_volume + a * exchange[k]);
   }
+  cap_changes(cell, p_half);
 }
 
 void equal_strain(const CellMotion& m, MixedCell& cell) {

@@ -135,11 +135,16 @@ void bound_row(Block<Dim>& b, int j, int k, double dt, double* const (&force)[Di
   set(g.cells[0], 0, 1);
 }
 
+/// The viscous hourglass term damps a 3D mode by 64 x coefficient x CFL a step: explicit, so below 2.
+ForceCoefficients force_coefficients(const Numerics& n, double dt) {
+  return {dt, std::min(n.hourglass, 0.03 / n.cfl)};
+}
+
 template <int Dim>
 BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
   const Grid& g = b.grid;
   const int planes = g.slabs() + 1;
-  const ForceCoefficients c{dt, scene.numerics.hourglass};
+  const ForceCoefficients c = force_coefficients(scene.numerics, dt);
   std::vector<BoundaryEffect> effects(static_cast<std::size_t>(planes));
   parallel_ranges(*scene.pool, planes, [&](int begin, int end, int) {
     CornerSlab<Dim> below(g), here(g);
@@ -199,16 +204,18 @@ template <int Dim> WorstCell move_cells(Scene<Dim>& scene, Block<Dim>& b) {
         const double *v = b.volume.row(r), *next = b.next_volume.row(r);
         WorstCell& w = worst[static_cast<std::size_t>(s)];
         for (int i = 0; i < g.cells[0]; ++i) {
-          if (!(next[i] >= w.ratio * v[i])) {
+          if (!(next[i] >= w.ratio * v[i]) && !std::isnan(w.ratio)) {
             w = {next[i] / v[i], {i, j, k}};
           }
         }
       }
     }
   });
-  return *std::min_element(worst.begin(), worst.end(), [](const WorstCell& a, const WorstCell& c) {
-    return a.ratio < c.ratio || std::isnan(a.ratio);
-  });
+  WorstCell least;
+  for (const WorstCell& w : worst) {
+    least = !(w.ratio >= least.ratio) && !std::isnan(least.ratio) ? w : least; // the first NaN wins
+  }
+  return least;
 }
 
 /// Scratch rows of the work pass.
@@ -362,7 +369,7 @@ void advance_row(Scene<Dim>& scene, Block<Dim>& b, int j, int k, double dt, Work
       next[d][l] = b.next_velocity[d].row(g.node_row(j + (l & 1), k + (l >> 1)));
     }
   }
-  corner_work<Dim>(b, ForceRows<Dim>(b, j, k), next, {dt, scene.numerics.hourglass}, g.cells[0], buffer.rows);
+  corner_work<Dim>(b, ForceRows<Dim>(b, j, k), next, force_coefficients(scene.numerics, dt), g.cells[0], buffer.rows);
   buffer.runs.scan(b.owner_row(r), g.cells[0]);
   for (const RowRuns::Run& run : buffer.runs.pure) {
     if (b.materials[static_cast<std::size_t>(run.material)].is_void) {

@@ -197,6 +197,18 @@ template <int Dim> void open_void(Block<Dim>& b, int r, int i) {
   b.materials.back().store.row(field::fraction, r)[i] = left;
 }
 
+/// Owner and state of a whole row: the only way they come about, so that a restart recomputes the same bits.
+template <int Dim> void row_state(Block<Dim>& b, int r, RowRuns& runs, std::vector<double>& rho) {
+  compute_owner(b, r);
+  runs.scan(b.owner_row(r), b.grid.cells[0]);
+  for (const RowRuns::Run& run : runs.pure) {
+    pure_run(b, r, run, rho);
+  }
+  for (const int i : runs.mixed) {
+    mixed_state(b, r, i, rho);
+  }
+}
+
 /// A void residue that reconstruction left inside a body: small, no pure void beside the cell, and closing
 /// it would not bring any material to its spall pressure. It would cut the body's tension for good.
 template <int Dim> bool is_residue(const Block<Dim>& b, int i, int j, int k) {
@@ -261,7 +273,8 @@ template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool) {
     }
   });
   long count = 0;
-  std::vector<double> rho(1);
+  std::vector<double> rho(static_cast<std::size_t>(g.cells[0]));
+  RowRuns runs;
   for (int s = 0; s < g.slabs(); ++s) {
     for (int q = 0; q < g.rows_per_slab(); ++q) {
       const auto& cells = residues[static_cast<std::size_t>(s * g.rows_per_slab() + q)];
@@ -269,10 +282,9 @@ template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool) {
       const int r = g.cell_row(j, k);
       for (const int i : cells) {
         close_void(b, r, i);
-        mixed_state(b, r, i, rho);
       }
       if (!cells.empty()) {
-        compute_owner(b, r);
+        row_state(b, r, runs, rho);
       }
       count += static_cast<long>(cells.size());
     }
@@ -303,7 +315,8 @@ template <int Dim> long open_voids(Block<Dim>& b, ThreadPool& pool) {
     }
   });
   long count = 0;
-  std::vector<double> rho(1);
+  std::vector<double> rho(static_cast<std::size_t>(g.cells[0]));
+  RowRuns runs;
   for (int s = 0; s < g.slabs(); ++s) {
     for (int q = 0; q < g.rows_per_slab(); ++q) {
       const auto& cells = failed[static_cast<std::size_t>(s * g.rows_per_slab() + q)];
@@ -312,8 +325,9 @@ template <int Dim> long open_voids(Block<Dim>& b, ThreadPool& pool) {
       for (const int i : cells) {
         b.materials.back().store.allocate(b.materials.back().store.tile_of(r));
         open_void(b, r, i);
-        b.owner_row(r)[i] = mixed_cell;
-        mixed_state(b, r, i, rho);
+      }
+      if (!cells.empty()) {
+        row_state(b, r, runs, rho);
       }
       count += static_cast<long>(cells.size());
     }
@@ -331,14 +345,7 @@ template <int Dim> void update_state(Block<Dim>& b, ThreadPool& pool) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
         const int r = g.cell_row(j, k);
-        compute_owner(b, r);
-        runs.scan(b.owner_row(r), g.cells[0]);
-        for (const RowRuns::Run& run : runs.pure) {
-          pure_run(b, r, run, rho);
-        }
-        for (const int i : runs.mixed) {
-          mixed_state(b, r, i, rho);
-        }
+        row_state(b, r, runs, rho);
         if (const BadCell found = check_row(b, j, k); found.found()) {
           bad[static_cast<std::size_t>(s)] = found;
         }

@@ -150,6 +150,12 @@ template <int Dim> void pull_back_to_yield(const Material& material, int count, 
             const double q = equivalent(s, std::integral_constant<int, Dim>{});
             const FlowState state{rows.plastic_strain[i], rows.energy[i] - material.specific_energy, 0};
             const double limit = flow_stress(model, state, 0);
+            // Rate hardening is not known here (it belongs to the next step's strain): a rate-dependent
+            // material keeps its stress, and the next return brings it to the surface of its rate.
+            if constexpr (std::is_same_v<std::decay_t<decltype(model)>, JohnsonCook>) {
+              rows.flow_stress[i] = std::max(limit, q);
+              continue;
+            }
             rows.flow_stress[i] = limit;
             if (q > limit) {
               for (int a = 0; a < n; ++a) {

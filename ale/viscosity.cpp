@@ -239,7 +239,10 @@ template <int Dim> DtLimit stable_dt(Scene<Dim>& scene) {
           DtLimit& limit = found[static_cast<std::size_t>(s)];
           const int i = static_cast<int>(low - dt.begin());
           if (n.cfl * *low < limit.dt) {
-            const bool viscous = b.viscosity[0].row(r)[i] > 0 || b.viscosity[1].row(r)[i] > 0;
+            bool viscous = false;
+            for (const RowField& q_axis : b.viscosity) {
+              viscous = viscous || q_axis.row(r)[i] > 0;
+            }
             limit = {n.cfl * *low, static_cast<int>(ib), {i, j, k}, b.owner_row(r)[i],
                      viscous ? DtCause::viscosity : DtCause::sound};
           }

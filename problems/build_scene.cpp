@@ -1,6 +1,7 @@
 #include "problems/build_scene.hpp"
 
 #include "ale/fill.hpp"
+#include "core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +47,13 @@ bool needs_void(const SceneSpec& spec) {
                        return std::isfinite(m.spall_pressure);
                      });
   const bool holes = std::any_of(spec.bodies.begin(), spec.bodies.end(), [](const Body& b) { return b.material < 0; });
-  return spec.background < 0 || spall || holes;
+  bool free = false; // behind a free side of an eulerian mesh there is void, and it may flow in
+  for (std::size_t axis = 0; axis < spec.boundaries.size() && !spec.mesh_lines[axis].empty(); ++axis) {
+    for (const Boundary& side : spec.boundaries[axis]) {
+      free = free || (side.kind == BoundaryKind::free && spec.motion.policy == MotionPolicy::eulerian);
+    }
+  }
+  return spec.background < 0 || spall || holes || free;
 }
 
 /// Momentum by node while cells are filled; velocities are its mean by mass.
@@ -163,6 +170,13 @@ template <int Dim> void apply_boundary_velocity(Block<Dim>& b) {
 } // namespace
 
 template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
+  for (const auto& axis : spec.boundaries) {
+    for (const Boundary& side : axis) {
+      if (side.kind == BoundaryKind::wall && side.wall_velocity != 0 && spec.motion.policy == MotionPolicy::eulerian) {
+        throw Error("mesh: a moving wall needs motion.policy = \"lagrangian\": an eulerian mesh stays where it is");
+      }
+    }
+  }
   Scene<Dim> scene;
   scene.title = spec.title;
   scene.numerics = method_of(spec);

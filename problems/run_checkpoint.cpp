@@ -63,6 +63,7 @@ void write_checkpoint(const std::filesystem::path& path, const Scene<Dim>& scene
   out.put("memory/mass_start", memory.mass_start);
   out.put("memory/gauges", memory.gauges);
   out.put("memory/results", memory.results);
+  out.put("memory/observed", memory.observed);
   for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
     const Block<Dim>& b = scene.blocks[ib];
     const std::string base = fmt::format("block_{}/", ib);
@@ -109,6 +110,7 @@ void read_checkpoint(const std::filesystem::path& path, Scene<Dim>& scene, Clock
   memory.mass_start = in.get_doubles("memory/mass_start");
   memory.gauges = in.get_doubles("memory/gauges");
   memory.results = in.get_doubles("memory/results");
+  memory.observed = in.get_doubles("memory/observed");
   for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
     Block<Dim>& b = scene.blocks[ib];
     const std::string base = fmt::format("block_{}/", ib);

@@ -17,6 +17,8 @@ struct RunMemory {
   std::array<double, 3> momentum_start = {0, 0, 0};
   std::vector<double> gauges; ///< x, y, z of each
   double next_fields = 0, next_history = 0, wall_before = 0;
+  /// What the observer has seen: dt smallest and first, peaks, and each gauge's peak and last velocity.
+  std::vector<double> observed;
   std::vector<double> results; ///< scene results measured at the start
 };
 

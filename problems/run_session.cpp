@@ -45,6 +45,19 @@ RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& 
   memory_.deck_hash = hash_of(read.resolved);
   if (restarted_) {
     read_checkpoint(restart, scene_, clock_, memory_);
+    const auto& o = memory_.observed;
+    if (o.size() != 5 + 4 * spec_.gauges.size()) {
+      throw Error(restart + ": the state of a failed run, kept for inspection; restart from a checkpoint.h5 before it");
+    }
+    dt_min_ = o.at(0);
+    dt_first_ = o.at(1);
+    peak_unaccounted_ = o.at(2);
+    cavity_peak_ = o.at(3);
+    gauge_time_ = o.at(4);
+    for (std::size_t q = 0; q < spec_.gauges.size(); ++q) {
+      gauge_peaks_.push_back(o.at(5 + 4 * q));
+      gauge_velocity_.push_back({o.at(6 + 4 * q), o.at(7 + 4 * q), o.at(8 + 4 * q)});
+    }
   } else {
     const Totals t = totals(scene_.blocks[0]);
     memory_.energy_start = t.internal() + t.kinetic_energy;
@@ -55,8 +68,8 @@ RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& 
       memory_.gauges.insert(memory_.gauges.end(), g.at.begin(), g.at.end());
     }
   }
-  gauge_peaks_.assign(spec_.gauges.size(), 0.0);
-  gauge_velocity_.assign(spec_.gauges.size(), {0, 0, 0});
+  gauge_peaks_.resize(spec_.gauges.size(), 0.0);
+  gauge_velocity_.resize(spec_.gauges.size(), {0, 0, 0});
   std::filesystem::create_directories(dir_);
   io::write_text_atomically(dir_ / "deck.toml", read.resolved);
   const auto names = columns();
@@ -245,6 +258,10 @@ template <int Dim> void RunSession<Dim>::move_gauges() {
 template <int Dim> void RunSession<Dim>::checkpoint() {
   RunMemory memory = memory_;
   memory.wall_before += seconds_since(start_);
+  memory.observed = {dt_min_, dt_first_, peak_unaccounted_, cavity_peak_, gauge_time_};
+  for (std::size_t q = 0; q < spec_.gauges.size(); ++q) {
+    memory.observed.insert(memory.observed.end(), {gauge_peaks_[q], gauge_velocity_[q][0], gauge_velocity_[q][1], gauge_velocity_[q][2]});
+  }
   write_checkpoint(dir_ / "checkpoint.h5", scene_, clock_, memory);
   last_checkpoint_ = std::chrono::steady_clock::now();
 }
@@ -273,10 +290,10 @@ template <int Dim> bool RunSession<Dim>::record(const Scene<Dim>&, const Clock&)
   dt_first_ = dt_first_ == 0 ? clock_.dt : dt_first_;
   move_gauges();
   const bool end = clock_.done();
-  if (clock_.time >= memory_.next_history || end) {
+  if (spec_.output.history_every <= 0 || clock_.time >= memory_.next_history || end) {
     sample();
-    while (memory_.next_history <= clock_.time) {
-      memory_.next_history += spec_.output.history_every > 0 ? spec_.output.history_every : clock_.dt;
+    while (spec_.output.history_every > 0 && memory_.next_history <= clock_.time) {
+      memory_.next_history += spec_.output.history_every;
     }
   }
   if (clock_.time >= memory_.next_fields || end) {

@@ -125,7 +125,9 @@ public:
         const double want = m_.fixed_velocity[axis][side];
         for (int i = axis == 0 ? at : 0; i < (axis == 0 ? at + 1 : nodes_); ++i) {
           if (u[i] != want) {
-            loss[i] += 0.5 * mass[i] * (u[i] * u[i] - want * want);
+            // m (u^2 - w^2)/2 = m (u - w)^2/2, lost, + w m (u - w), the wall's work.
+            loss[i] += 0.5 * mass[i] * (u[i] - want) * (u[i] - want);
+            sums.kinetic_out += want * mass[i] * (u[i] - want);
             sums.momentum_out[axis] += mass[i] * (u[i] - want);
             u[i] = want;
           }
@@ -348,7 +350,7 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, const RowField& loss, const 
               continue;
             }
             double gain = per_mass[static_cast<std::size_t>(i)];
-            if (gain < -largest_fall * e[i]) {
+            if (gain < 0 && gain < -largest_fall * e[i]) {
               gain = std::min(0.0, -largest_fall * e[i]);
               ++slab.floors;
             }
