@@ -14,32 +14,51 @@ MixedCell::Part* void_part(MixedCell& cell) {
   return last && last->is_void && last->volume > 0 ? last : nullptr;
 }
 
-/// No material loses more than largest_part of its volume in a step: what a soft one (a gas beside metal)
-/// cannot give, the others give by compliance. Work moves with the volume at `pressure`, so sums stay.
-void cap_changes(MixedCell& cell, double pressure) {
+/// No material changes its volume by more than largest_part of it in a step: what a soft one (a gas beside
+/// metal) cannot take, the others take by compliance. A capped one does the work of its own mean pressure,
+/// p - K/2 dV/V; the others take the rest, so volume and energy still sum exactly.
+void cap_changes(MixedCell& cell) {
   bool capped[max_materials_in_cell] = {};
   for (int pass = 0; pass < cell.count; ++pass) {
-    double excess = 0, compliance = 0;
+    double volume = 0, work = 0, compliance = 0;
     for (int k = 0; k < cell.count; ++k) {
       MixedCell::Part& p = cell.part[k];
-      const double least = -largest_part * p.volume;
-      if (!p.is_void && !capped[k] && p.volume_change < least) {
-        excess += p.volume_change - least;
-        p.work += pressure * (p.volume_change - least);
-        p.volume_change = least;
+      const double most = largest_part * p.volume;
+      if (!p.is_void && !capped[k] && std::abs(p.volume_change) > most * (1 + 1e-12)) {
+        const double change = std::copysign(most, p.volume_change);
+        const double own = -(p.pressure - 0.5 * p.modulus * change / p.volume) * change;
+        volume += p.volume_change - change;
+        work += p.work - own;
+        p.volume_change = change;
+        p.work = own;
         capped[k] = true;
       }
-      compliance += p.is_void || capped[k] ? 0 : p.volume / p.modulus;
     }
-    if (excess == 0 || compliance == 0) {
-      return; // nothing to move, or the whole cell is crushed: the step's own limits apply
+    for (int k = 0; k < cell.count; ++k) {
+      compliance += cell.part[k].is_void || capped[k] ? 0 : cell.part[k].volume / cell.part[k].modulus;
+    }
+    if (volume == 0) {
+      return;
+    }
+    if (compliance == 0) { // the whole cell at once: by volume after all, the step's own limits apply
+      double whole = 0;
+      for (int k = 0; k < cell.count; ++k) {
+        whole += cell.part[k].is_void ? 0 : cell.part[k].volume;
+      }
+      for (int k = 0; k < cell.count; ++k) {
+        MixedCell::Part& p = cell.part[k];
+        const double share = p.is_void ? 0 : p.volume / whole;
+        p.volume_change += volume * share;
+        p.work += work * share;
+      }
+      return;
     }
     for (int k = 0; k < cell.count; ++k) {
       MixedCell::Part& p = cell.part[k];
       if (!p.is_void && !capped[k]) {
-        const double d = excess * (p.volume / p.modulus) / compliance;
-        p.volume_change += d;
-        p.work -= pressure * d;
+        const double share = (p.volume / p.modulus) / compliance;
+        p.volume_change += volume * share;
+        p.work += work * share;
       }
     }
   }
@@ -60,7 +79,7 @@ void share_with_void(const CellMotion& m, MixedCell& cell, MixedCell::Part& hole
     p.volume_change = compliance > 0 ? rest * (p.volume / p.modulus) / compliance : 0;
     p.work = -hole.pressure * p.volume_change; // the forces of the step were the void's
   }
-  cap_changes(cell, hole.pressure);
+  cap_changes(cell);
   // Materials in tension close up first and leave room, those under pressure then expand into it.
   for (const bool expanding : {false, true}) {
     double wanted = 0;
@@ -115,7 +134,7 @@ void relax(const CellMotion& m, MixedCell& cell) {
     p.volume_change = beta * m.volume_change + a * exchange[k];
     p.work = -(beta * (p.pressure - m.modulus * m.compression) * m.swept_volume + a * mean * exchange[k]);
   }
-  cap_changes(cell, m.pressure - m.modulus * m.compression);
+  cap_changes(cell);
 }
 
 /// Tipton 1989: stiffness raised by V/(c dt), one common half-step pressure.
@@ -143,7 +162,7 @@ void tipton(const CellMotion& m, MixedCell& cell) {
     p.volume_change = strain * m.volume_change + a * exchange[k];
     p.work = -p_half * (strain * m.swept_volume + a * exchange[k]);
   }
-  cap_changes(cell, p_half);
+  cap_changes(cell);
 }
 
 void equal_strain(const CellMotion& m, MixedCell& cell) {
