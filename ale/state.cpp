@@ -251,22 +251,19 @@ template <int Dim> void close_void(Block<Dim>& b, int r, int i) {
   gap = 0;
 }
 
-} // namespace
-
-template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool) {
-  if (b.void_index() < 0) {
-    return 0;
-  }
+/// Finds cells in parallel by `wanted(i, j, k)`, then changes them one by one by `change(r, i)`, in order, and
+/// evaluates their rows anew. Returns how many.
+template <int Dim, class Wanted, class Change>
+long change_cells(Block<Dim>& b, ThreadPool& pool, Wanted&& wanted, Change&& change) {
   const Grid& g = b.grid;
-  std::vector<std::vector<int>> residues(static_cast<std::size_t>(g.slabs() * g.rows_per_slab()));
+  std::vector<std::vector<int>> found(static_cast<std::size_t>(g.slabs() * g.rows_per_slab()));
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
-        const std::int8_t* owner = b.owner_row(g.cell_row(j, k));
         for (int i = 0; i < g.cells[0]; ++i) {
-          if (owner[i] == mixed_cell && is_residue(b, i, j, k)) {
-            residues[static_cast<std::size_t>(s * g.rows_per_slab() + q)].push_back(i);
+          if (wanted(i, j, k)) {
+            found[static_cast<std::size_t>(s * g.rows_per_slab() + q)].push_back(i);
           }
         }
       }
@@ -277,19 +274,35 @@ template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool) {
   RowRuns runs;
   for (int s = 0; s < g.slabs(); ++s) {
     for (int q = 0; q < g.rows_per_slab(); ++q) {
-      const auto& cells = residues[static_cast<std::size_t>(s * g.rows_per_slab() + q)];
+      const auto& cells = found[static_cast<std::size_t>(s * g.rows_per_slab() + q)];
+      if (cells.empty()) {
+        continue;
+      }
       const auto [j, k] = g.in_slab(s, q);
       const int r = g.cell_row(j, k);
       for (const int i : cells) {
-        close_void(b, r, i);
+        change(r, i);
       }
-      if (!cells.empty()) {
-        row_state(b, r, runs, rho);
-      }
+      row_state(b, r, runs, rho);
       count += static_cast<long>(cells.size());
     }
   }
   return count;
+}
+
+} // namespace
+
+template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool) {
+  if (b.void_index() < 0) {
+    return 0;
+  }
+  return change_cells(
+      b,
+      pool,
+      [&](int i, int j, int k) {
+        return b.owner_row(b.grid.cell_row(j, k))[i] == mixed_cell && is_residue(b, i, j, k);
+      },
+      [&](int r, int i) { close_void(b, r, i); });
 }
 
 template <int Dim> long open_voids(Block<Dim>& b, ThreadPool& pool) {
@@ -298,41 +311,18 @@ template <int Dim> long open_voids(Block<Dim>& b, ThreadPool& pool) {
   if (!any || b.void_index() < 0) {
     return 0;
   }
-  const Grid& g = b.grid;
-  std::vector<std::vector<int>> failed(static_cast<std::size_t>(g.slabs() * g.rows_per_slab()));
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
-    for (int s = begin; s < end; ++s) {
-      for (int q = 0; q < g.rows_per_slab(); ++q) {
-        const auto [j, k] = g.in_slab(s, q);
-        const int r = g.cell_row(j, k);
-        const double* p = b.pressure.row(r);
-        for (int i = 0; i < g.cells[0]; ++i) {
-          if (p[i] + b.reference_pressure < 0 && failed_material(b, r, i) >= 0) {
-            failed[static_cast<std::size_t>(s * g.rows_per_slab() + q)].push_back(i);
-          }
-        }
-      }
-    }
-  });
-  long count = 0;
-  std::vector<double> rho(static_cast<std::size_t>(g.cells[0]));
-  RowRuns runs;
-  for (int s = 0; s < g.slabs(); ++s) {
-    for (int q = 0; q < g.rows_per_slab(); ++q) {
-      const auto& cells = failed[static_cast<std::size_t>(s * g.rows_per_slab() + q)];
-      const auto [j, k] = g.in_slab(s, q);
-      const int r = g.cell_row(j, k);
-      for (const int i : cells) {
-        b.materials.back().store.allocate(b.materials.back().store.tile_of(r));
+  return change_cells(
+      b,
+      pool,
+      [&](int i, int j, int k) {
+        const int r = b.grid.cell_row(j, k);
+        return b.pressure.row(r)[i] + b.reference_pressure < 0 && failed_material(b, r, i) >= 0;
+      },
+      [&](int r, int i) {
+        TileStore& gap = b.materials.back().store;
+        gap.allocate(gap.tile_of(r));
         open_void(b, r, i);
-      }
-      if (!cells.empty()) {
-        row_state(b, r, runs, rho);
-      }
-      count += static_cast<long>(cells.size());
-    }
-  }
-  return count;
+      });
 }
 
 template <int Dim> void update_state(Block<Dim>& b, ThreadPool& pool) {

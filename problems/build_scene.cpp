@@ -177,6 +177,13 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
       }
     }
   }
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    for (const Boundary& side : spec.boundaries[axis]) {
+      if (side.kind == BoundaryKind::inflow) {
+        throw Error("mesh: boundary type \"inflow\" is not available yet: its state would not be fed; use free, outflow, wall or symmetry");
+      }
+    }
+  }
   Scene<Dim> scene;
   scene.title = spec.title;
   scene.numerics = method_of(spec);

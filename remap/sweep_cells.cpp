@@ -8,7 +8,7 @@
 #include "remap/internal.hpp"
 
 #include "remap/limiter.hpp"
-#include "remap/onion.hpp"
+#include "remap/reconstruct.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,6 @@ constexpr double sliver_fraction = 1e-14; ///< below it a material is round-off 
 constexpr double flush_fraction = 1e-6;   ///< a donor left with less than this gives it all
 constexpr double slope_fraction = 0.999;  ///< a donor holding less has no slope
 constexpr double neighbour_fraction = 0.01;
-constexpr int most_materials = 16;
 
 /// Fluxes through one row of faces, per material and conserved field; zero where a material has none.
 class FaceRow {
@@ -65,49 +64,15 @@ Line line_of(const Grid& g, int axis, int j, int k) {
   return {{r - 2 * s, r - s, r, r + s}, {0, 0, 0, 0}};
 }
 
-/// 3^Dim stencils of cumulated fractions around a cell, material by material.
-template <int Dim> int stencils(const Mesh<Dim>& m, int r, int i, int* present, double* cumulated) {
-  constexpr int size = stencil_size<Dim>;
-  int count = 0;
-  for (int k = 0; k < m.material_count(); ++k) {
-    const TileStore& s = *m.materials[static_cast<std::size_t>(k)];
-    if (s.has_row(r) && s.row(0, r)[i] > 0 && count < most_materials) {
-      present[count++] = k;
-    }
-  }
-  // Interface q holds everything up to and including present[q]; absent materials in between (present
-  // only in neighbours) are counted with the earlier one, so that a layer's two sides see one plane.
-  for (int q = 0; q + 1 < count; ++q) {
-    double* out = cumulated + q * size;
-    std::fill(out, out + size, 0.0);
-    for (int k = 0; k < present[q + 1]; ++k) {
-      const TileStore& s = *m.materials[static_cast<std::size_t>(k)];
-      int at = 0;
-      for (int dk = Dim == 3 ? -1 : 0; dk <= (Dim == 3 ? 1 : 0); ++dk) {
-        for (int dj = -1; dj <= 1; ++dj) {
-          const double* f = s.row(0, r + dj + dk * m.grid.cell_rows_per_plane()) + i;
-          for (int di = -1; di <= 1; ++di) {
-            out[at++] += f[di];
-          }
-        }
-      }
-    }
-  }
-  return count;
-}
-
 /// Volumes that a mixed donor gives through one face, into the materials' flux[0] at `face`.
 template <int Dim>
 void mixed_donor(const Mesh<Dim>& m, const Settings& s, int axis, int r, int i, double t, bool both_faces_give, FaceRow& out, int face) {
-  constexpr int size = stencil_size<Dim>;
-  int present[most_materials];
-  double cumulated[most_materials * size];
-  const int count = stencils(m, r, i, present, cumulated);
-  Interface<Dim> planes[most_materials];
-  onion_interfaces<Dim>(s.normal, cumulated, count - 1, planes);
+  const Reconstruction<Dim> cell = reconstruct_cell<Dim>(m.grid, m.materials, s.normal, r, i);
+  const int count = cell.count;
+  const int* present = cell.present;
   const double volume = m.volume.row(r)[i], part = std::min(1.0, std::abs(t) / volume);
   double given[most_materials], held[most_materials], sum = 0;
-  slab_volumes<Dim>(planes, count - 1, axis, t > 0 ? 1 - part : 0.0, t > 0 ? 1.0 : part, given);
+  slab_volumes<Dim>(cell.planes, count - 1, axis, t > 0 ? 1 - part : 0.0, t > 0 ? 1.0 : part, given);
   int largest = 0;
   for (int q = 0; q < count; ++q) {
     held[q] = m.materials[static_cast<std::size_t>(present[q])]->row(0, r)[i] * volume;
