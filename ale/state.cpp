@@ -209,15 +209,31 @@ template <int Dim> void row_state(Block<Dim>& b, int r, RowRuns& runs, std::vect
   }
 }
 
-/// A void residue that reconstruction left inside a body: small, no pure void beside the cell, and closing
-/// it would not bring any material to its spall pressure. It would cut the body's tension for good.
-template <int Dim> bool is_residue(const Block<Dim>& b, int i, int j, int k) {
+/// A void that has no right to be: the cell's materials are compressed enough to fill it (a remap brings a
+/// void in beside them each step; kept, the cell would push back with the void's pressure however far it is
+/// squeezed), or it is a residue that reconstruction left inside a body, which would cut the body's tension for
+/// good: small, no pure void beside the cell, and closing it does not bring any material to its spall pressure.
+template <int Dim> bool to_be_closed(const Block<Dim>& b, int i, int j, int k) {
   constexpr double largest_residue = 1e-2; // about the spall strain of metals, p_spall / K; the law is below
   const Grid& g = b.grid;
   const int r = g.cell_row(j, k), hole = b.void_index();
   const double gap = b.materials[static_cast<std::size_t>(hole)].store.row(field::fraction, r)[i];
-  if (gap <= 0 || gap > largest_residue) {
+  if (gap <= 0) {
     return false;
+  }
+  double compliance = 0, expansion = 0, weakest = -std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m + 1 < b.materials.size(); ++m) {
+    const MaterialSlot& slot = b.materials[m];
+    const double f = slot.store.row(field::fraction, r)[i];
+    if (f > 0) {
+      const double soft = f / slot.store.row(slot.modulus_field(), r)[i];
+      compliance += soft;
+      expansion += soft * (slot.store.row(slot.pressure_field(), r)[i] + b.reference_pressure);
+      weakest = std::max(weakest, slot.material.spall_pressure);
+    }
+  }
+  if (expansion >= gap) {
+    return true;
   }
   const int index[3] = {i, j, k};
   for (int axis = 0; axis < Dim; ++axis) {
@@ -228,16 +244,7 @@ template <int Dim> bool is_residue(const Block<Dim>& b, int i, int j, int k) {
       return false;
     }
   }
-  double compliance = 0, weakest = -std::numeric_limits<double>::infinity();
-  for (std::size_t m = 0; m + 1 < b.materials.size(); ++m) {
-    const MaterialSlot& slot = b.materials[m];
-    const double f = slot.store.row(field::fraction, r)[i];
-    if (f > 0) {
-      compliance += f / slot.store.row(slot.modulus_field(), r)[i];
-      weakest = std::max(weakest, slot.material.spall_pressure);
-    }
-  }
-  return compliance > 0 && -gap / compliance > weakest;
+  return gap <= largest_residue && compliance > 0 && -gap / compliance > weakest;
 }
 
 template <int Dim> void close_void(Block<Dim>& b, int r, int i) {
@@ -300,7 +307,7 @@ template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool) {
       b,
       pool,
       [&](int i, int j, int k) {
-        return b.owner_row(b.grid.cell_row(j, k))[i] == mixed_cell && is_residue(b, i, j, k);
+        return b.owner_row(b.grid.cell_row(j, k))[i] == mixed_cell && to_be_closed(b, i, j, k);
       },
       [&](int r, int i) { close_void(b, r, i); });
 }

@@ -1,0 +1,58 @@
+// Voids in cells: when they open and when they go.
+#include "ale/fill.hpp"
+#include "ale/phases.hpp"
+#include "materials/library.hpp"
+
+#include <gtest/gtest.h>
+
+namespace ballast {
+namespace {
+
+/// Three cells of copper in a row at `compression` of its volume, the middle one with `gap` of void beside it.
+Block<2> row_with_gap(double compression, double gap) {
+  const Material copper = *find_material("copper_ofhc");
+  Block<2> b;
+  b.materials.push_back(make_slot(copper, 0));
+  b.materials.push_back(make_void());
+  allocate_block(b, {std::vector<double>{0, 1e-3, 2e-3, 3e-3}, std::vector<double>{0, 1e-3}, {}});
+  for (int i = 0; i < 3; ++i) {
+    const double f = i == 1 ? 1 - gap : 1;
+    const CellPart parts[2] = {{0, f, copper.density * (1 + compression), copper.specific_energy}, {1, 1 - f, 0, 0}};
+    fill_cell<2>(b, i, 0, 0, std::span<const CellPart>(parts, i == 1 && gap > 0 ? 2 : 1));
+  }
+  ThreadPool pool(1);
+  update_state(b, pool);
+  return b;
+}
+
+double void_share(const Block<2>& b) { return b.materials[1].store.row(field::fraction, b.grid.cell_row(0, 0))[1]; }
+
+TEST(Void, CompressedMaterialFillsTheVoidBesideItAndPushesBack) {
+  ThreadPool pool(1);
+  Block<2> b = row_with_gap(0.2, 0.05); // wants a fifth more room, has a twentieth
+  const double mass = totals(b).mass[0], energy = totals(b).internal_energy[0];
+  EXPECT_EQ(b.pressure.row(b.grid.cell_row(0, 0))[1], 0);
+  EXPECT_EQ(close_voids(b, pool), 1);
+  EXPECT_EQ(void_share(b), 0);
+  EXPECT_GT(b.pressure.row(b.grid.cell_row(0, 0))[1], 1e10);
+  EXPECT_EQ(totals(b).mass[0], mass);
+  EXPECT_EQ(totals(b).internal_energy[0], energy);
+}
+
+TEST(Void, SlightlyCompressedMaterialLeavesALargerVoid) {
+  ThreadPool pool(1);
+  Block<2> b = row_with_gap(0.01, 0.05);
+  EXPECT_EQ(close_voids(b, pool), 0);
+  EXPECT_DOUBLE_EQ(void_share(b), 0.05);
+}
+
+TEST(Void, ResidueInsideABodyClosesUpToTheSpallStrain) {
+  ThreadPool pool(1);
+  Block<2> within = row_with_gap(0, 2e-3), beyond = row_with_gap(0, 2e-2);
+  EXPECT_EQ(close_voids(within, pool), 1);
+  EXPECT_LT(within.pressure.row(within.grid.cell_row(0, 0))[1], 0);
+  EXPECT_EQ(close_voids(beyond, pool), 0);
+}
+
+} // namespace
+} // namespace ballast
