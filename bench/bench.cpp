@@ -1,6 +1,6 @@
 // Microseconds a cell-step of the whole step, and the share of the stream bandwidth it would need if
 // every field were read and written once. Not a timed test: run it on a quiet machine.
-//   ballast_bench [threads]
+//   ballast_bench [threads [case, 1 to 3]]
 #include "ale/fill.hpp"
 #include "ale/simulation.hpp"
 
@@ -107,12 +107,21 @@ double triad() {
 
 int main(int argc, char** argv) {
   const int threads = argc > 1 ? std::atoi(argv[1]) : 1;
-  std::printf("%d thread(s), stream triad %.1f GB/s on one\n", threads, triad());
-  std::printf("3D Lagrangian gas, 64^3           %.3f us a cell-step (asked 0.25 on one core)\n",
-              measure<3>(ideal_gas(), 64, 0.1, MotionPolicy::lagrangian, threads, 3));
-  std::printf("3D Eulerian copper, strength 64^3 %.3f us a cell-step (asked 0.70 on one core)\n",
-              measure<3>(copper(), 64, 100, MotionPolicy::eulerian, threads, 2));
-  std::printf("2D Eulerian gas, 400^2            %.3f us a cell-step (asked 0.12 on one core)\n",
-              measure<2>(ideal_gas(), 400, 0.1, MotionPolicy::eulerian, threads, 4));
+  const int only = argc > 2 ? std::atoi(argv[2]) : 0;
+  if (only == 0) {
+    std::printf("%d thread(s), stream triad %.1f GB/s on one\n", threads, triad());
+  }
+  if (only == 0 || only == 1) {
+    std::printf("3D Lagrangian gas, 64^3           %.3f us a cell-step (asked 0.25 on one core)\n",
+                measure<3>(ideal_gas(), 64, 0.1, MotionPolicy::lagrangian, threads, 3));
+  }
+  if (only == 0 || only == 2) {
+    std::printf("3D Eulerian copper, strength 64^3 %.3f us a cell-step (asked 0.70 on one core)\n",
+                measure<3>(copper(), 64, 100, MotionPolicy::eulerian, threads, 2));
+  }
+  if (only == 0 || only == 3) {
+    std::printf("2D Eulerian gas, 400^2            %.3f us a cell-step (asked 0.12 on one core)\n",
+                measure<2>(ideal_gas(), 400, 0.1, MotionPolicy::eulerian, threads, 4));
+  }
   return 0;
 }

@@ -167,6 +167,29 @@ template <int Dim> void apply_boundary_velocity(Block<Dim>& b) {
   }
 }
 
+template <int Dim> bool starts_with_void(const Block<Dim>& b) {
+  bool any = false;
+  if (const int hole = b.void_index(); hole >= 0) {
+    const TileStore& store = b.materials[static_cast<std::size_t>(hole)].store;
+    for (int tile = 0; tile < store.tile_count(); ++tile) {
+      any = any || store.any(field::fraction, tile);
+    }
+  }
+  return any;
+}
+
+/// Bodies in a void have a vacuum around them, not the ambient atmosphere: forces are then taken against zero
+/// pressure, inside and beyond a free side alike. Against the ambient pressure a free side would push it
+/// through void cells on to nodes that hold next to no mass.
+template <int Dim> void release_to_vacuum(Block<Dim>& b) {
+  b.reference_pressure = 0;
+  for (MaterialSlot& slot : b.materials) {
+    if (!slot.is_void) {
+      slot.reference = make_slot(slot.material, 0).reference;
+    }
+  }
+}
+
 } // namespace
 
 template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
@@ -208,6 +231,9 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   }
   allocate_block(b, spec.mesh_lines);
   fill_block(spec, slots, b);
+  if (starts_with_void(b)) {
+    release_to_vacuum(b);
+  }
   apply_boundary_velocity(b);
   scene.blocks.push_back(std::move(b));
   prepare(scene);

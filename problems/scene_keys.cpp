@@ -55,7 +55,7 @@ const SectionSpec& top() {
         .required = true},
        {.name = "ambient",
         .kind = table,
-        .doc = "pressure and temperature of everything at the start"},
+        .doc = "pressure and temperature of everything at the start; where there is void, there is vacuum: nothing presses from it or from a free side"},
        {.name = "background",
         .kind = text,
         .doc = "material where no body is, or `void`",

@@ -188,5 +188,43 @@ z = { from = "-34 mm", to = ["12 mm", "32 mm"], size = ["0.5 mm", "3 mm"] }
   EXPECT_GT(least, first / 10);
 }
 
+// A body that leaves a mesh of void through a free side: nothing presses on the void, whatever the ambient
+// pressure says, so the next to massless nodes ahead of it are not flung about.
+TEST(Run, FreeSideBesideVoidPressesOnNothing) {
+  constexpr const char* leaving = R"(
+title = "out of the mesh"
+geometry = "planar"
+end_time = "40 us"
+ambient = { pressure = "1 atm" }
+[[body]]
+name = "ball"
+material = "muscle"
+shape = { sphere = { centre = ["4 mm", "4 mm"], radius = "2.3 mm" } }
+velocity = ["100 m/s", "0 m/s"]
+[mesh]
+x = { from = "0 mm", to = "8 mm", size = "0.5 mm" }
+y = { from = "0 mm", to = "8 mm", size = "0.5 mm" }
+)";
+  Deck d = Deck::parse(leaving, "leaving.toml", {});
+  const SceneSpec spec = read_scene(d);
+  d.throw_if_errors();
+  Scene<2> scene = build_scene<2>(spec, 1);
+  Clock clock;
+  clock.end_time = spec.end_time;
+  double fastest = 0;
+  struct Watch : Observer<2> {
+    double& fastest;
+    explicit Watch(double& f) : fastest(f) {}
+    bool record(const Scene<2>& s, const Clock& c) override {
+      for (const double u : s.blocks[0].velocity[0].data()) {
+        fastest = std::max(fastest, std::abs(u));
+      }
+      return c.step < 3000;
+    }
+  } watch(fastest);
+  EXPECT_TRUE(run(scene, clock, {&watch}));
+  EXPECT_LT(fastest, 120);
+}
+
 } // namespace
 } // namespace ballast
