@@ -462,10 +462,6 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
       b.velocity[d].swap(b.next_velocity[d]);
     }
     b.volume.swap(b.next_volume);
-    update_state(b, *scene.pool);
-    if (scene.numerics.spall) {
-      scene.ledger.spalled_cells += open_voids(b, *scene.pool);
-    }
   }
 }
 

@@ -21,11 +21,18 @@ template <int Dim> long close_voids(Block<Dim>& block, ThreadPool& pool);
 /// Strain rates, lengths and viscosity along the logical axes, and the largest stable step.
 template <int Dim> DtLimit stable_dt(Scene<Dim>& scene);
 
-/// One Lagrangian step of all blocks; retries with half of clock.dt when a cell would invert.
+/// One Lagrangian step of all blocks; retries with half of clock.dt when a cell would invert. Leaves the blocks'
+/// state (pressures, owners) as it was: new_state comes next.
 template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock);
 
-/// Remaps a block from where it is to its target mesh.
+/// Remaps a block from where it is to its target mesh; new_state comes next.
 template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& block, long step);
+
+/// State at the end of a step: pressures, voids that a remap left closed, voids that spall opens.
+template <int Dim> void new_state(Scene<Dim>& scene, Block<Dim>& block, bool remapped);
+
+/// One whole step: choose dt, Lagrangian step, remap where due, state.
+template <int Dim> void advance(Scene<Dim>& scene, Clock& clock);
 
 struct Totals {
   std::vector<double> mass, internal_energy, volume; ///< by material

@@ -74,8 +74,6 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   if (b.any_strength()) {
     pull_back_to_yield(b, *scene.pool);
   }
-  update_state(b, *scene.pool);
-  scene.ledger.closed_voids += close_voids(b, *scene.pool);
   Ledger& l = scene.ledger;
   for (std::size_t m = 0; m < report.mass_out.size(); ++m) {
     l.mass_out[m] += report.mass_out[m];

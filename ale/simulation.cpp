@@ -6,18 +6,34 @@
 
 namespace ballast {
 
+template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
+  clock.choose(stable_dt(scene), scene.numerics);
+  lagrange_step(scene, clock);
+  for (Block<Dim>& block : scene.blocks) {
+    const bool due = block.motion.due(clock.step);
+    if (due) {
+      remap_block(scene, block, clock.step);
+    }
+    new_state(scene, block, due);
+  }
+  clock.advance();
+}
+
+template <int Dim> void new_state(Scene<Dim>& scene, Block<Dim>& block, bool remapped) {
+  update_state(block, *scene.pool);
+  if (remapped) {
+    scene.ledger.closed_voids += close_voids(block, *scene.pool);
+  }
+  if (scene.numerics.spall) {
+    scene.ledger.spalled_cells += open_voids(block, *scene.pool);
+  }
+}
+
 template <int Dim>
 bool run(Scene<Dim>& scene, Clock& clock, const std::vector<Observer<Dim>*>& observers) {
   bool go_on = true;
   while (!clock.done() && go_on) {
-    clock.choose(stable_dt(scene), scene.numerics);
-    lagrange_step(scene, clock);
-    for (Block<Dim>& block : scene.blocks) {
-      if (block.motion.due(clock.step)) {
-        remap_block(scene, block, clock.step);
-      }
-    }
-    clock.advance();
+    advance(scene, clock);
     for (Observer<Dim>* observer : observers) {
       go_on = observer->record(scene, clock) && go_on;
     }
@@ -67,6 +83,10 @@ template <int Dim> void prepare(Scene<Dim>& scene) {
   }
 }
 
+template void advance<2>(Scene<2>&, Clock&);
+template void advance<3>(Scene<3>&, Clock&);
+template void new_state<2>(Scene<2>&, Block<2>&, bool);
+template void new_state<3>(Scene<3>&, Block<3>&, bool);
 template bool run<2>(Scene<2>&, Clock&, const std::vector<Observer<2>*>&);
 template bool run<3>(Scene<3>&, Clock&, const std::vector<Observer<3>*>&);
 template void prepare<2>(Scene<2>&);

@@ -70,12 +70,7 @@ template <int Dim> double measure(const Material& material, int n, double speed,
   for (int batch = 0; batch < 6; ++batch) {
     const auto start = std::chrono::steady_clock::now();
     for (int s = 0; s < steps; ++s) {
-      clock.choose(stable_dt(scene), scene.numerics);
-      lagrange_step(scene, clock);
-      if (scene.blocks[0].motion.due(clock.step)) {
-        remap_block(scene, scene.blocks[0], clock.step);
-      }
-      clock.advance();
+      advance(scene, clock);
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (batch > 0) {

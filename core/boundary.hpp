@@ -46,44 +46,51 @@ constexpr int mirrored_node(int i, int n) {
   return m < 0 ? 0 : m > n ? n : m;
 }
 
-/// Fills the ghosts of cell rows: `row(j, k)` must return the pointer to i = 0, or null to skip.
-/// sign[axis] is -1 for a component that a mirror at that axis turns round.
-template <class Row>
-void mirror_cells(const Grid& g, const std::array<double, 3>& sign, Row&& row) {
-  for (int k = 0; k < g.cells[2]; ++k) {
-    for (int j = 0; j < g.cells[1]; ++j) {
-      if (double* a = row(j, k)) {
-        for (int q = 1; q <= g.ghost[0]; ++q) {
-          a[-q] = sign[0] * a[mirrored_cell(-q, g.cells[0])];
-          a[g.cells[0] - 1 + q] = sign[0] * a[mirrored_cell(g.cells[0] - 1 + q, g.cells[0])];
+/// Fills the ghosts of cell rows beyond both sides of one axis: `row(j, k)` must return the pointer to i = 0, or
+/// null to skip. sign is -1 for a component that a mirror at that axis turns round.
+template <class Row> void mirror_cells_along(const Grid& g, int axis, double sign, Row&& row) {
+  const int n0 = g.cells[0], g0 = g.ghost[0];
+  if (axis == 0) {
+    for (int k = 0; k < g.cells[2]; ++k) {
+      for (int j = 0; j < g.cells[1]; ++j) {
+        if (double* a = row(j, k)) {
+          for (int q = 1; q <= g0; ++q) {
+            a[-q] = sign * a[mirrored_cell(-q, n0)];
+            a[n0 - 1 + q] = sign * a[mirrored_cell(n0 - 1 + q, n0)];
+          }
+        }
+      }
+    }
+    return;
+  }
+  const auto copy = [&](int j, int k, int js, int ks) {
+    double* to = row(j, k);
+    const double* from = row(js, ks);
+    for (int i = -g0; to && i < n0 + g0; ++i) {
+      to[i] = from ? sign * from[i] : 0.0;
+    }
+  };
+  const int n = g.cells[static_cast<std::size_t>(axis)];
+  for (int q = 1; q <= g.ghost[static_cast<std::size_t>(axis)]; ++q) {
+    for (const int to : {-q, n - 1 + q}) {
+      const int from = mirrored_cell(to, n);
+      if (axis == 1) {
+        for (int k = 0; k < g.cells[2]; ++k) {
+          copy(to, k, from, k);
+        }
+      } else {
+        for (int j = -g.ghost[1]; j < g.cells[1] + g.ghost[1]; ++j) {
+          copy(j, to, j, from);
         }
       }
     }
   }
-  const auto copy = [&](int j, int k, int js, int ks, double s) {
-    double* to = row(j, k);
-    const double* from = row(js, ks);
-    if (to && from) {
-      for (int i = -g.ghost[0]; i < g.cells[0] + g.ghost[0]; ++i) {
-        to[i] = s * from[i];
-      }
-    } else if (to) {
-      for (int i = -g.ghost[0]; i < g.cells[0] + g.ghost[0]; ++i) {
-        to[i] = 0;
-      }
-    }
-  };
-  for (int k = 0; k < g.cells[2]; ++k) {
-    for (int q = 1; q <= g.ghost[1]; ++q) {
-      copy(-q, k, mirrored_cell(-q, g.cells[1]), k, sign[1]);
-      copy(g.cells[1] - 1 + q, k, mirrored_cell(g.cells[1] - 1 + q, g.cells[1]), k, sign[1]);
-    }
-  }
-  for (int q = 1; q <= g.ghost[2]; ++q) {
-    for (int j = -g.ghost[1]; j < g.cells[1] + g.ghost[1]; ++j) {
-      copy(j, -q, j, mirrored_cell(-q, g.cells[2]), sign[2]);
-      copy(j, g.cells[2] - 1 + q, j, mirrored_cell(g.cells[2] - 1 + q, g.cells[2]), sign[2]);
-    }
+}
+
+/// The same beyond every side, edges and corners included; sign by axis.
+template <class Row> void mirror_cells(const Grid& g, const std::array<double, 3>& sign, Row&& row) {
+  for (int axis = 0; axis < g.dim; ++axis) {
+    mirror_cells_along(g, axis, sign[static_cast<std::size_t>(axis)], row);
   }
 }
 

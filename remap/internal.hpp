@@ -13,15 +13,20 @@ inline int sweep_axis(int dim, int q, long order) {
 template <int Dim>
 void compute_swept(Mesh<Dim>& mesh, ThreadPool& pool, const std::array<RowField, Dim>& from, const std::array<RowField, Dim>& to, long order);
 
-/// Allocates tiles that a sweep may reach and fills every ghost the sweep reads.
-template <int Dim> void exchange_for_sweep(Mesh<Dim>& mesh);
+/// Allocates tiles that a sweep may reach and fills every ghost a sweep along `axis` reads.
+template <int Dim> void exchange_for_sweep(Mesh<Dim>& mesh, int axis);
 
-/// Cells' part of a sweep along `axis`: volumes, fractions, masses, intensives; leaves mass_flux.
+/// Cells' part of a sweep along `axis`: volumes, fractions, masses, intensives; leaves mass_flux and the cells'
+/// masses before the sweep in scratch.cell_mass.
 template <int Dim>
 void sweep_cells(Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, int axis, Report& report);
 
-/// Nodes' part: momentum on the dual mesh with the cells' mass fluxes, kinetic energy returned.
+/// Nodes' part: momentum on the dual mesh with the cells' mass fluxes. Kinetic energy lost is added up by node
+/// in scratch.node_loss, from zero at the `first` sweep.
 template <int Dim>
-void sweep_nodes(Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, int axis, Report& report);
+void sweep_nodes(Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, int axis, bool first, Report& report);
+
+/// Gives every node's loss to its cells by corner mass, every cell's to its materials by mass.
+template <int Dim> void return_kinetic(Mesh<Dim>& mesh, ThreadPool& pool, Report& report);
 
 } // namespace ballast::remap

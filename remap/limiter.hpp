@@ -1,4 +1,9 @@
-// Limited slope of a quantity along a line, in a volume or mass coordinate with unequal spacing.
+// Limited rise of a quantity from the middle of a donor to the middle of what leaves it, in a volume or mass
+// coordinate with unequal spacing.
+//
+// Van Leer's monotonised central slope times a distance: min(|central|, 2 |below|, 2 |above|), which keeps the
+// donor's edge values between its neighbours' and is exact for linear data. The divisions depend on the
+// coordinate alone, so they are made once a face (RiseFactors) for all the quantities it carries.
 #pragma once
 
 #include <bit>
@@ -18,21 +23,27 @@ inline double select(std::uint64_t mask, double yes, double no) {
   return std::bit_cast<double>(n ^ ((y ^ n) & mask));
 }
 
-/// Slope of the donor value q with neighbours q_low, q_high; d_low, d_high centre distances, width
-/// the donor's own. Limited so that the donor's edge values stay between the neighbours' (van
-/// Leer's monotonised central); exact for linear data. unlimited > 0: the central slope (a number, since
-/// g++ 12 does not vectorise a choice by an invariant flag).
-inline double slope(
-    double q_low, double q, double q_high, double d_low, double d_high, double width, double unlimited) {
-  const double central = (q_high - q_low) / (d_low + d_high);
-  const double below = 2 * (q - q_low) / width, above = 2 * (q_high - q) / width;
+/// distance / (spacing to the cell behind + to the cell ahead) and 2 distance / the donor's width; both zero
+/// where the donor has no slope.
+struct RiseFactors {
+  double central, edge;
+};
+[[gnu::always_inline]] inline RiseFactors rise_factors(double behind, double ahead, double width, double distance) {
+  return {distance / (behind + ahead), 2 * distance / width};
+}
+
+/// Rise of q along the flow, from the donor's value q with the neighbours it comes from (behind) and goes to
+/// (ahead). unlimited > 0: the central slope (a number, since g++ 12 does not vectorise a choice by an
+/// invariant flag).
+[[gnu::always_inline]] inline double limited_rise(double behind, double q, double ahead, const RiseFactors& k, double unlimited) {
+  const double whole = ahead - behind, below = q - behind, above = ahead - q;
   // Values, not std::min's references: the row loops that call this must vectorise.
-  const double a = std::abs(below), b = std::abs(above), c = std::abs(central);
-  const double bound = a < b ? a : b;
+  const double a = std::abs(below), b = std::abs(above), c = std::abs(whole) * k.central;
+  const double bound = (a < b ? a : b) * k.edge;
   const double least = c < bound ? c : bound;
   // By sign, not by product: that would overflow beside empty cells.
   const double same_sign = std::copysign(1.0, below) * std::copysign(1.0, above) > 0 ? least : 0.0;
-  return std::copysign(unlimited > 0 ? c : same_sign, central);
+  return std::copysign(unlimited > 0 ? c : same_sign, whole);
 }
 
 } // namespace ballast::remap

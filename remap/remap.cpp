@@ -154,17 +154,22 @@ template <int Dim> void exchange_owner(Mesh<Dim>& m, ThreadPool& pool) {
 
 } // namespace
 
-template <int Dim> void exchange_for_sweep(Mesh<Dim>& m) {
+template <int Dim> void exchange_for_sweep(Mesh<Dim>& m, int axis) {
   const Grid& g = m.grid;
   follow_presence(m);
   for (TileStore* store : m.materials) {
     for (int field = 0; field < store->conserved(); ++field) {
       // Components of a tensor that change sign in a mirror only matter for slopes at the wall, where
       // the even mirror gives a zero slope: first order there, by choice.
-      mirror_cells(g, {1, 1, 1}, [&](int j, int k) -> double* {
+      const auto row = [&](int j, int k) -> double* {
         const int r = g.cell_row(j, k);
         return store->has_row(r) ? store->row(field, r) : nullptr;
-      });
+      };
+      if (field == 0) { // interfaces look to all sides, slopes along the sweep only
+        mirror_cells(g, {1, 1, 1}, row);
+      } else {
+        mirror_cells_along(g, axis, 1, row);
+      }
     }
   }
   mirror_cells(g, {1, 1, 1}, [&](int j, int k) { return m.volume.row(g.cell_row(j, k)); });
@@ -173,9 +178,15 @@ template <int Dim> void exchange_for_sweep(Mesh<Dim>& m) {
 template <int Dim>
 void sweep_all(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long order, Report& report) {
   report.mass_out.resize(m.materials.size(), 0.0);
+  Scratch own;
+  Scratch* const kept = m.scratch;
+  m.scratch = kept ? kept : &own;
+  if (m.scratch->cell_mass.empty()) {
+    *m.scratch = {RowField::of_cells(m.grid), RowField::of_nodes(m.grid), RowField::of_nodes(m.grid)};
+  }
   for (int q = 0; q < Dim; ++q) {
     const int axis = sweep_axis(Dim, q, order);
-    exchange_for_sweep(m);
+    exchange_for_sweep(m, axis);
     exchange_owner(m, pool);
     for (int a = 0; a < Dim; ++a) {
       for (int side = 0; side < 2; ++side) {
@@ -185,8 +196,12 @@ void sweep_all(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long or
       }
     }
     sweep_cells(m, settings, pool, axis, report);
-    sweep_nodes(m, settings, pool, axis, report);
+    sweep_nodes(m, settings, pool, axis, q == 0, report);
   }
+  if (settings.return_kinetic) {
+    return_kinetic(m, pool, report);
+  }
+  m.scratch = kept;
   ++report.substeps;
 }
 
@@ -244,7 +259,7 @@ template Report remap<2>(Mesh<2>&, const Settings&, ThreadPool&, long);
 template Report remap<3>(Mesh<3>&, const Settings&, ThreadPool&, long);
 template void sweep_all<2>(Mesh<2>&, const Settings&, ThreadPool&, long, Report&);
 template void sweep_all<3>(Mesh<3>&, const Settings&, ThreadPool&, long, Report&);
-template void exchange_for_sweep<2>(Mesh<2>&);
-template void exchange_for_sweep<3>(Mesh<3>&);
+template void exchange_for_sweep<2>(Mesh<2>&, int);
+template void exchange_for_sweep<3>(Mesh<3>&, int);
 
 } // namespace ballast::remap

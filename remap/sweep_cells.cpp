@@ -7,7 +7,7 @@
 // exact for linear data on rectilinear meshes; next to mixed cells the value is constant.
 #include "remap/internal.hpp"
 
-#include "remap/limiter.hpp"
+#include "remap/flux_rows.hpp"
 #include "remap/reconstruct.hpp"
 
 #include <algorithm>
@@ -21,8 +21,6 @@ namespace {
 
 constexpr double sliver_fraction = 1e-14; ///< below it a material is round-off and is dropped, with a count
 constexpr double flush_fraction = 1e-6;   ///< a donor left with less than this gives it all
-constexpr double slope_fraction = 0.999;  ///< a donor holding less has no slope
-constexpr double neighbour_fraction = 0.01;
 
 /// Fluxes through one row of faces, per material and conserved field; zero where a material has none.
 class FaceRow {
@@ -42,6 +40,8 @@ public:
   bool present(int material) const { return present_[static_cast<std::size_t>(material)]; }
   void set_present(int material, bool p) { present_[static_cast<std::size_t>(material)] = p; }
   int faces() const { return faces_; }
+  /// The only material of the cells on both sides of all faces, or -1.
+  int sole = -1;
 
 private:
   int faces_;
@@ -50,18 +50,15 @@ private:
   std::vector<double> data_;
 };
 
-/// The four rows along the axis around a row of faces: cells two below, below, above, two above.
-struct Line {
-  int row[4];
-  int shift[4]; // of i, for axis 0
-};
-
-Line line_of(const Grid& g, int axis, int j, int k) {
-  const int r = g.cell_row(j, k), s = g.cell_row_stride(axis);
-  if (axis == 0) {
-    return {{r, r, r, r}, {-2, -1, 0, 1}};
+/// The material of all `count` cells from `owner` on, or -1.
+int sole_owner(const std::int8_t* owner, int count) {
+  int others = 0;
+  const std::int8_t first = owner[0];
+#pragma omp simd reduction(+ : others)
+  for (int i = 0; i < count; ++i) {
+    others += owner[i] != first ? 1 : 0;
   }
-  return {{r - 2 * s, r - s, r, r + s}, {0, 0, 0, 0}};
+  return others == 0 && first >= 0 ? first : -1;
 }
 
 /// Volumes that a mixed donor gives through one face, into the materials' flux[0] at `face`.
@@ -114,6 +111,17 @@ void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& 
   for (int k = 0; k < m.material_count(); ++k) {
     out.set_present(k, false);
   }
+  const int sole = sole_owner(above, out.faces());
+  out.sole = sole >= 0 && sole_owner(below, out.faces()) == sole ? sole : -1;
+  if (out.sole >= 0) {
+    out.set_present(sole, true);
+    double* flux = out.flux(sole, 0);
+#pragma omp simd
+    for (int i = 0; i < out.faces(); ++i) {
+      flux[i] = 0.0 - swept[i];
+    }
+    return;
+  }
   const int stride = m.grid.cell_row_stride(axis), step = axis == 0 ? 1 : 0;
   const double* next_swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces + stride) + step;
   const double* last_swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces - stride) - step;
@@ -144,70 +152,6 @@ void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& 
   }
 }
 
-/// Pointers of one quantity at the four cells of a line, shifted to face 0.
-struct Four {
-  const double* q[4];
-};
-Four four(const TileStore& s, int field, const Line& l) {
-  return {{s.row(field, l.row[0]) + l.shift[0], s.row(field, l.row[1]) + l.shift[1],
-           s.row(field, l.row[2]) + l.shift[2], s.row(field, l.row[3]) + l.shift[3]}};
-}
-
-/// Donor and its two neighbours (low, high along the axis) of face i: cells 0 1 2 for t > 0, 1 2 3 else.
-/// All four are loaded, then selected: a conditional load would keep the row loop from vectorising.
-struct Three {
-  double low, mid, high;
-};
-inline Three pick(const Four& f, int i, std::uint64_t positive) {
-  const double a = f.q[0][i], b = f.q[1][i], c = f.q[2][i], d = f.q[3][i];
-  return {select(positive, a, b), select(positive, b, c), select(positive, c, d)};
-}
-
-/// Masses from volumes through a row of faces, by the limited density; has_slope marks faces whose
-/// donor may have slopes.
-void mass_fluxes(const TileStore& store, const RowField& volumes, const Line& l, double unlimited, int faces, const double* volume_flux, double* mass_flux, double* has_slope) {
-  const Four f = four(store, 0, l), m = four(store, 1, l);
-  const Four v{{volumes.row(l.row[0]) + l.shift[0], volumes.row(l.row[1]) + l.shift[1],
-                volumes.row(l.row[2]) + l.shift[2], volumes.row(l.row[3]) + l.shift[3]}};
-#pragma omp simd
-  for (int i = 0; i < faces; ++i) {
-    const double t = volume_flux[i];
-    const std::uint64_t positive = where_positive(t);
-    const Three vf = pick(f, i, positive), vm = pick(m, i, positive), vv = pick(v, i, positive);
-    const bool good = (vf.mid > slope_fraction) & (vf.low > neighbour_fraction) & (vf.high > neighbour_fraction);
-    const auto density = [](double mass, double fraction, double volume) {
-      const double held = fraction * volume;
-      return mass / (held > 1e-300 ? held : 1e-300);
-    };
-    const double rho = density(vm.mid, vf.mid, vv.mid);
-    const double sl = slope(density(vm.low, vf.low, vv.low), rho, density(vm.high, vf.high, vv.high),
-                            0.5 * (vv.low + vv.mid), 0.5 * (vv.mid + vv.high), vv.mid, unlimited);
-    const double distance = 0.5 * (vv.mid - std::abs(t));
-    const double rise = select(positive, sl, -sl) * distance;
-    const double some = t * (rho + (good ? rise : 0.0));
-    const bool whole = (std::abs(t) == vf.mid * vv.mid) & (t != 0); // nothing stays behind, not even round-off
-    const double all = select(positive, vm.mid, -vm.mid);
-    mass_flux[i] = whole ? all : some;
-    has_slope[i] = good ? 1.0 : 0.0;
-  }
-}
-
-/// Intensive quantity carried with the mass.
-void intensive_fluxes(const TileStore& store, int field, const Line& l, double unlimited, int faces, const double* mass_flux, const double* has_slope, double* out) {
-  const Four m = four(store, 1, l), q = four(store, field, l);
-#pragma omp simd
-  for (int i = 0; i < faces; ++i) {
-    const double t = mass_flux[i];
-    const std::uint64_t positive = where_positive(t);
-    const Three vm = pick(m, i, positive), vq = pick(q, i, positive);
-    const double sl = slope(vq.low, vq.mid, vq.high, 0.5 * (vm.low + vm.mid) + 1e-300,
-                            0.5 * (vm.mid + vm.high) + 1e-300, vm.mid + 1e-300, unlimited);
-    const double distance = 0.5 * (vm.mid - std::abs(t));
-    const double rise = select(positive, sl, -sl) * distance, sloped = has_slope[i];
-    out[i] = t * (vq.mid + (sloped > 0 ? rise : 0.0));
-  }
-}
-
 /// Sums a slab contributes to the report, added in slab order.
 struct SlabSums {
   std::vector<double> mass_out;
@@ -219,7 +163,7 @@ template <int Dim> class CellSweep {
 public:
   CellSweep(Mesh<Dim>& mesh, const Settings& settings, int axis)
       : m_(mesh), s_(settings), axis_(axis), faces_(mesh.grid.cells[0] + (axis == 0 ? 1 : 0)),
-        has_slope_(static_cast<std::size_t>(faces_)), unowned_(static_cast<std::size_t>(faces_)) {}
+        factors_(faces_), unowned_(static_cast<std::size_t>(faces_)) {}
 
   /// Everything through the faces below the cells of row (j, k), and their total mass flux if the row
   /// of faces is this thread's own (at a cut between threads both compute it, one writes it).
@@ -228,21 +172,30 @@ public:
     const Line line = line_of(m_.grid, axis_, j, k);
     volume_fluxes(m_, s_, axis_, line, r, out);
     double* total = own ? m_.mass_flux[static_cast<std::size_t>(axis_)].row(r) : unowned_.data();
-    std::fill(total, total + faces_, 0.0);
-    for (int k_mat = 0; k_mat < m_.material_count(); ++k_mat) {
-      if (!out.present(k_mat) || m_.is_void(k_mat)) {
+    bool first = true;
+    for (int q = 0; q < m_.material_count(); ++q) {
+      if (!out.present(q) || m_.is_void(q)) {
         continue;
       }
-      const TileStore& store = *m_.materials[static_cast<std::size_t>(k_mat)];
-      double* mass = out.flux(k_mat, 1);
-      mass_fluxes(store, m_.volume, line, s_.limit ? 0.0 : 1.0, faces_, out.flux(k_mat, 0), mass, has_slope_.data());
-      for (int q = 2; q < store.conserved(); ++q) {
-        intensive_fluxes(store, q, line, s_.limit ? 0.0 : 1.0, faces_, mass, has_slope_.data(), out.flux(k_mat, q));
+      const TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
+      const double unlimited = s_.limit ? 0.0 : 1.0;
+      double* mass = out.flux(q, 1);
+      mass_fluxes(store, m_.volume, line, unlimited, faces_, out.flux(q, 0), mass, factors_);
+      for (int field = 2; field < store.conserved(); ++field) {
+        intensive_fluxes(store, field, line, unlimited, faces_, mass, factors_, out.flux(q, field));
+      }
+      if (first) {
+        std::copy(mass, mass + faces_, total);
+        first = false;
+        continue;
       }
 #pragma omp simd
       for (int i = 0; i < faces_; ++i) {
         total[i] += mass[i];
       }
+    }
+    if (first) {
+      std::fill(total, total + faces_, 0.0);
     }
   }
 
@@ -259,17 +212,84 @@ public:
     for (int i = 0; i < n; ++i) {
       v_next[i] = v[i] + s_high[i] - s_low[i];
     }
-    for (int q = 0; q < m_.material_count(); ++q) {
-      TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
-      if (store.has_row(r)) {
-        update_material(store, q, r, low, high, step, sums);
+    sum_masses(r);
+    if (low.sole >= 0 && low.sole == high.sole && holds_alone(low.sole, r)) {
+      update_sole(low.sole, r, low, high, step);
+    } else {
+      for (int q = 0; q < m_.material_count(); ++q) {
+        TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
+        if (store.has_row(r)) {
+          update_material(store, q, r, low, high, step, sums);
+        }
       }
+      normalise(r);
     }
-    normalise(r);
     boundary_sums(j, k, low, high, step, sums);
   }
 
 private:
+  /// Mass of all materials of the row's cells before the sweep: the coordinate in which velocities vary.
+  void sum_masses(int r) {
+    const int n = m_.grid.cells[0];
+    double* sum = m_.scratch->cell_mass.row(r);
+    bool first = true;
+    for (int q = 0; q < m_.material_count(); ++q) {
+      const TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
+      if (m_.is_void(q) || !store.has_row(r)) {
+        continue;
+      }
+      const double* mass = store.row(1, r);
+      if (first) {
+        std::copy(mass, mass + n, sum);
+        first = false;
+        continue;
+      }
+#pragma omp simd
+      for (int i = 0; i < n; ++i) {
+        sum[i] += mass[i];
+      }
+    }
+    if (first) {
+      std::fill(sum, sum + n, 0.0);
+    }
+    sum[-1] = sum[0];
+    sum[n] = sum[n - 1];
+  }
+
+  /// Is nothing else, not even a trace of it, in the row?
+  bool holds_alone(int q, int r) const {
+    for (int other = 0; other < m_.material_count(); ++other) {
+      const TileStore& store = *m_.materials[static_cast<std::size_t>(other)];
+      if (other == q || !store.has_row(r)) {
+        continue;
+      }
+      const double* f = store.row(0, r);
+      double any = 0;
+#pragma omp simd reduction(+ : any)
+      for (int i = 0; i < m_.grid.cells[0]; ++i) {
+        any += f[i];
+      }
+      if (any != 0) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// A row that one material fills, before and after.
+  void update_sole(int q, int r, FaceRow& low, FaceRow& high, int step) {
+    const int n = m_.grid.cells[0];
+    for (int other = 0; other < m_.material_count(); ++other) {
+      TileStore& store = *m_.materials[static_cast<std::size_t>(other)];
+      for (int field = 0; field < store.conserved() && store.has_row(r); ++field) {
+        std::fill(store.next_row(field, r), store.next_row(field, r) + n, field == 0 && other == q ? 1.0 : 0.0);
+      }
+    }
+    if (!m_.is_void(q)) {
+      update_intensives(*m_.materials[static_cast<std::size_t>(q)], q, r, low, high, step);
+    }
+  }
+
   void update_material(TileStore& store, int q, int r, FaceRow& low, FaceRow& high, int step, SlabSums& sums) {
     const int n = m_.grid.cells[0];
     const double *v = m_.volume.row(r), *v_next = m_.next_volume.row(r);
@@ -299,6 +319,13 @@ private:
       }
       return;
     }
+    update_intensives(store, q, r, low, high, step);
+    drop_slivers(store, r, sums);
+  }
+
+  /// Mass and what it carries.
+  void update_intensives(TileStore& store, int q, int r, FaceRow& low, FaceRow& high, int step) {
+    const int n = m_.grid.cells[0];
     const double* mass = std::as_const(store).row(1, r);
     double* mass_next = store.next_row(1, r);
     const double *m_low = flux_or_zero(low, q, 1), *m_high = flux_or_zero(high, q, 1) + step;
@@ -320,7 +347,6 @@ private:
         x_next[i] = same ? old : changed;
       }
     }
-    drop_slivers(store, r, sums);
   }
 
   const double* flux_or_zero(FaceRow& row, int q, int field) {
@@ -413,7 +439,8 @@ private:
   Mesh<Dim>& m_;
   const Settings& s_;
   int axis_, faces_;
-  std::vector<double> has_slope_, unowned_, zeros_, rest_, most_, who_;
+  FaceFactors factors_;
+  std::vector<double> unowned_, zeros_, rest_, most_, who_;
 };
 
 } // namespace

@@ -25,10 +25,10 @@ struct SlabSums {
 
 template <int Dim> class NodeSweep {
 public:
-  NodeSweep(Mesh<Dim>& mesh, const Settings& settings, const RowField& cell_mass, RowField& loss, int axis)
-      : m_(mesh), s_(settings), cell_mass_(cell_mass), loss_(loss), axis_(axis), nodes_(mesh.grid.cells[0] + 1),
+  NodeSweep(Mesh<Dim>& mesh, const Settings& settings, const RowField& cell_mass, RowField& loss, int axis, bool first)
+      : m_(mesh), s_(settings), cell_mass_(cell_mass), loss_(loss), axis_(axis), first_(first), nodes_(mesh.grid.cells[0] + 1),
         links_(nodes_ + (axis == 0 ? 1 : 0)) {
-    for (auto* v : {&flux_, &low_mass_, &high_mass_, &between_, &before_, &after_}) {
+    for (auto* v : {&flux_, &low_mass_, &high_mass_, &between_, &before_, &after_, &central_, &edge_, &lost_}) {
       v->assign(static_cast<std::size_t>(links_ + 2), 0.0);
     }
   }
@@ -40,35 +40,23 @@ public:
     const int r = g.node_row(j, k), stride = g.node_row_stride(axis_), shift = axis_ == 0 ? 1 : 0;
     dual_fluxes(j, k);
     double* mass = out[0].data();
-    for (int i = 0; i < links_; ++i) {
-      mass[i] = flux_[static_cast<std::size_t>(i)];
-      out[Dim + 1][static_cast<std::size_t>(i)] = 0;
-    }
+    std::copy(flux_.begin(), flux_.begin() + links_, mass);
+    std::fill(out[Dim + 1].begin(), out[Dim + 1].begin() + links_, 0.0);
+    link_factors(r, stride, shift);
+    const double *t = flux_.data(), *central = central_.data(), *edge = edge_.data();
+    const double unlimited = s_.limit ? 0 : 1;
     for (std::size_t d = 0; d < Dim; ++d) {
       const RowField& u = m_.velocity[d];
       const double *u0 = u.row(r - 2 * stride) - 2 * shift, *u1 = u.row(r - stride) - shift;
       const double *u2 = u.row(r), *u3 = u.row(r + stride) + shift;
       double *momentum = out[d + 1].data(), *kinetic = out[Dim + 1].data();
-      const double *t = flux_.data(), *mid = between_.data(), *lo = before_.data(), *hi = after_.data();
-      const double *wl = low_mass_.data(), *wh = high_mass_.data();
-      const double *held1 = m_.node_mass.row(r - stride) - shift, *held2 = m_.node_mass.row(r);
-      const double unlimited = s_.limit ? 0 : 1;
 #pragma omp simd
       for (int i = 0; i < links_; ++i) {
         // Loads first, then selections: conditional loads would keep the loop from vectorising.
         const double ua = u0[i], ub = u1[i], uc = u2[i], ud = u3[i], give = t[i];
-        const double mass_a = lo[i], mass_b = mid[i], mass_c = hi[i];
-        const double w1 = wl[i], w2 = wh[i], h1 = held1[i], h2 = held2[i];
         const std::uint64_t positive = where_positive(give);
-        const double u_donor = select(positive, ub, uc), u_low = select(positive, ua, ub), u_high = select(positive, uc, ud);
-        const double d_low = select(positive, mass_a, mass_b) + 1e-300, d_high = select(positive, mass_b, mass_c) + 1e-300;
-        const double sl = slope(u_low, u_donor, u_high, d_low, d_high, d_low > d_high ? d_low : d_high, unlimited);
-        // From the node to the middle of what leaves; no further than what stays behind, so that a node
-        // beside void that gives all it has gives its own velocity.
-        const double left = select(positive, h1, h2) - std::abs(give);
-        const double middle = select(positive, w1, w2) - 0.5 * std::abs(give);
-        const double least = middle < left ? middle : left, distance = least > 0 ? least : 0.0;
-        const double value = u_donor + select(positive, sl, -sl) * distance;
+        const double donor = select(positive, ub, uc), behind = select(positive, ua, ud), ahead = select(positive, uc, ub);
+        const double value = donor + limited_rise(behind, donor, ahead, {central[i], edge[i]}, unlimited);
         momentum[i] = give * value;
         kinetic[i] += 0.5 * give * value * value;
       }
@@ -80,7 +68,7 @@ public:
     const Grid& g = m_.grid;
     const int r = g.node_row(j, k), step = axis_ == 0 ? 1 : 0;
     const double* mass = m_.node_mass.row(r);
-    double *next_mass = next_mass_row(r), *loss = loss_.row(r);
+    double *next_mass = next_mass_row(r), *loss = lost_.data();
     const double *ml = low[0].data(), *mh = high[0].data() + step;
     const double *kl = low[Dim + 1].data(), *kh = high[Dim + 1].data() + step;
 #pragma omp simd
@@ -104,8 +92,10 @@ public:
     }
     boundary_sums(j, k, low, high, step, sums);
     hold_walls(j, k, sums);
+    double* all = loss_.row(r);
     for (int i = 0; i < nodes_; ++i) {
       sums.loss += loss[i];
+      all[i] = first_ ? loss[i] : all[i] + loss[i];
     }
   }
 
@@ -114,7 +104,7 @@ public:
     const Grid& g = m_.grid;
     const int r = g.node_row(j, k), index[3] = {0, j, k};
     const double* mass = next_mass_row(r);
-    double* loss = loss_.row(r);
+    double* loss = lost_.data();
     for (std::size_t axis = 0; axis < Dim; ++axis) {
       double* u = m_.next_velocity[axis].row(r);
       for (std::size_t side = 0; side < 2; ++side) {
@@ -140,6 +130,28 @@ public:
   void set_next_mass(RowField* f) { next_mass_ = f; }
 
 private:
+  /// What the links' masses say about rises of velocity along them; the same for every component.
+  void link_factors(int r, int stride, int shift) {
+    const double *t = flux_.data(), *mid = between_.data(), *lo = before_.data(), *hi = after_.data();
+    const double *wl = low_mass_.data(), *wh = high_mass_.data();
+    const double *held1 = m_.node_mass.row(r - stride) - shift, *held2 = m_.node_mass.row(r);
+    double *central = central_.data(), *edge = edge_.data();
+#pragma omp simd
+    for (int i = 0; i < links_; ++i) {
+      const double give = t[i], w1 = wl[i], w2 = wh[i], h1 = held1[i], h2 = held2[i], mass_a = lo[i], mass_c = hi[i];
+      const std::uint64_t positive = where_positive(give);
+      const double behind = select(positive, mass_a, mass_c) + 1e-300, ahead = mid[i] + 1e-300;
+      // From the node to the middle of what leaves; no further than what stays behind, so that a node
+      // beside void that gives all it has gives its own velocity.
+      const double left = select(positive, h1, h2) - std::abs(give);
+      const double middle = select(positive, w1, w2) - 0.5 * std::abs(give);
+      const double least = middle < left ? middle : left, distance = least > 0 ? least : 0.0;
+      const RiseFactors k = rise_factors(behind, ahead, behind > ahead ? behind : ahead, distance);
+      central[i] = k.central;
+      edge[i] = k.edge;
+    }
+  }
+
   /// Dual mass flux, and the cell masses below, between and above the two nodes of every link.
   void dual_fluxes(int j, int k) {
     const Grid& g = m_.grid;
@@ -273,44 +285,72 @@ private:
   const RowField& cell_mass_;
   RowField& loss_;
   RowField* next_mass_ = nullptr;
-  int axis_, nodes_, links_;
-  std::vector<double> flux_, low_mass_, high_mass_, between_, before_, after_;
+  int axis_;
+  bool first_; ///< of the sweeps whose losses are returned together
+  int nodes_, links_;
+  std::vector<double> flux_, low_mass_, high_mass_, between_, before_, after_, central_, edge_, lost_;
 };
-
-/// Mass of all materials a cell (before the sweep: the coordinate in which velocities vary).
-template <int Dim> void total_mass(const Mesh<Dim>& m, ThreadPool& pool, bool next, RowField& out) {
-  const Grid& g = m.grid;
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
-    for (int s = begin; s < end; ++s) {
-      for (int q = 0; q < g.rows_per_slab(); ++q) {
-        const auto [j, k] = g.in_slab(s, q);
-        const int r = g.cell_row(j, k);
-        double* sum = out.row(r);
-        std::fill(sum, sum + g.cells[0], 0.0);
-        for (int mat = 0; mat < m.material_count(); ++mat) {
-          TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
-          if (m.is_void(mat) || !store.has_row(r)) {
-            continue;
-          }
-          const double* mass = next ? store.next_row(1, r) : std::as_const(store).row(1, r);
-#pragma omp simd
-          for (int i = 0; i < g.cells[0]; ++i) {
-            sum[i] += mass[i];
-          }
-        }
-        sum[-1] = sum[0];
-        sum[g.cells[0]] = sum[g.cells[0] - 1];
-      }
-    }
-  });
-}
 
 constexpr double largest_fall = 0.5; ///< of a cell's internal energy that a negative return may take
 
-/// Gives every node's loss to its cells by corner mass, every cell's to its materials by mass.
+} // namespace
+
 template <int Dim>
-void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, const RowField& loss, const RowField& node_mass, std::vector<SlabSums>& sums) {
+void sweep_nodes(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int axis, bool first, Report& report) {
   const Grid& g = m.grid;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    m.exchange_velocity(m.velocity[d], static_cast<int>(d));
+  }
+  RowField &cell_mass = m.scratch->cell_mass, &loss = m.scratch->node_loss, &next_mass = m.scratch->next_node_mass;
+  const int slabs = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
+  std::vector<SlabSums> sums(static_cast<std::size_t>(slabs));
+  parallel_ranges(pool, slabs, [&](int begin, int end, int) {
+    NodeSweep<Dim> sweep(m, settings, cell_mass, loss, axis, first);
+    sweep.set_next_mass(&next_mass);
+    using Links = std::array<std::vector<double>, Dim + 2>;
+    Links empty;
+    for (auto& l : empty) {
+      l.assign(static_cast<std::size_t>(g.cells[0] + 2), 0.0);
+    }
+    const bool outer = axis == Dim - 1;
+    std::vector<Links> carry(static_cast<std::size_t>(outer ? rows : 1), empty);
+    Links next = empty;
+    for (int s = begin; s < end; ++s) {
+      SlabSums& slab = sums[static_cast<std::size_t>(s)];
+      for (int q = 0; q < rows; ++q) {
+        const int j = Dim == 3 ? q : s, k = Dim == 3 ? s : 0;
+        Links& low = carry[static_cast<std::size_t>(outer ? q : 0)];
+        if (axis == 0 || (outer ? s == begin : q == 0)) {
+          sweep.links(j, k, low.data());
+        }
+        if (axis == 0) {
+          sweep.update(j, k, low.data(), low.data(), slab);
+        } else {
+          sweep.links(axis == 1 ? j + 1 : j, axis == 2 ? k + 1 : k, next.data());
+          sweep.update(j, k, low.data(), next.data(), slab);
+          std::swap(low, next);
+        }
+      }
+    }
+  });
+  for (std::size_t d = 0; d < Dim; ++d) {
+    m.velocity[d].swap(m.next_velocity[d]);
+  }
+  m.node_mass.swap(next_mass);
+  for (const SlabSums& s : sums) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      report.momentum_out[d] += s.momentum_out[d];
+    }
+    report.kinetic_out += s.kinetic_out;
+    report.kinetic_loss += s.loss;
+  }
+}
+
+template <int Dim>
+void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
+  const Grid& g = m.grid;
+  const RowField &loss = m.scratch->node_loss, &node_mass = m.node_mass;
+  std::vector<SlabSums> sums(static_cast<std::size_t>(g.slabs()));
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
     std::vector<double> per_mass(static_cast<std::size_t>(g.cells[0]));
     double* gains = per_mass.data();
@@ -361,74 +401,15 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, const RowField& loss, const 
       }
     }
   });
-}
-
-} // namespace
-
-template <int Dim>
-void sweep_nodes(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int axis, Report& report) {
-  const Grid& g = m.grid;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    m.exchange_velocity(m.velocity[d], static_cast<int>(d));
-  }
-  // The cells have been swept and swapped: their masses before the sweep are in the next rows.
-  Scratch own;
-  Scratch& scratch = m.scratch ? *m.scratch : own;
-  if (scratch.cell_mass.empty()) {
-    scratch = {RowField::of_cells(g), RowField::of_nodes(g), RowField::of_nodes(g)};
-  }
-  RowField &cell_mass = scratch.cell_mass, &loss = scratch.node_loss, &next_mass = scratch.next_node_mass;
-  total_mass(m, pool, true, cell_mass);
-  const int slabs = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
-  std::vector<SlabSums> sums(static_cast<std::size_t>(slabs));
-  parallel_ranges(pool, slabs, [&](int begin, int end, int) {
-    NodeSweep<Dim> sweep(m, settings, cell_mass, loss, axis);
-    sweep.set_next_mass(&next_mass);
-    using Links = std::array<std::vector<double>, Dim + 2>;
-    Links empty;
-    for (auto& l : empty) {
-      l.assign(static_cast<std::size_t>(g.cells[0] + 2), 0.0);
-    }
-    const bool outer = axis == Dim - 1;
-    std::vector<Links> carry(static_cast<std::size_t>(outer ? rows : 1), empty);
-    Links next = empty;
-    for (int s = begin; s < end; ++s) {
-      SlabSums& slab = sums[static_cast<std::size_t>(s)];
-      for (int q = 0; q < rows; ++q) {
-        const int j = Dim == 3 ? q : s, k = Dim == 3 ? s : 0;
-        Links& low = carry[static_cast<std::size_t>(outer ? q : 0)];
-        if (axis == 0 || (outer ? s == begin : q == 0)) {
-          sweep.links(j, k, low.data());
-        }
-        if (axis == 0) {
-          sweep.update(j, k, low.data(), low.data(), slab);
-        } else {
-          sweep.links(axis == 1 ? j + 1 : j, axis == 2 ? k + 1 : k, next.data());
-          sweep.update(j, k, low.data(), next.data(), slab);
-          std::swap(low, next);
-        }
-      }
-    }
-  });
-  for (std::size_t d = 0; d < Dim; ++d) {
-    m.velocity[d].swap(m.next_velocity[d]);
-  }
-  m.node_mass.swap(next_mass);
-  if (settings.return_kinetic) {
-    return_kinetic(m, pool, loss, m.node_mass, sums);
-  }
   for (const SlabSums& s : sums) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      report.momentum_out[d] += s.momentum_out[d];
-    }
-    report.kinetic_out += s.kinetic_out;
-    report.kinetic_loss += s.loss;
     report.kinetic_returned += s.returned;
     report.energy_floors += s.floors;
   }
 }
 
-template void sweep_nodes<2>(Mesh<2>&, const Settings&, ThreadPool&, int, Report&);
-template void sweep_nodes<3>(Mesh<3>&, const Settings&, ThreadPool&, int, Report&);
+template void sweep_nodes<2>(Mesh<2>&, const Settings&, ThreadPool&, int, bool, Report&);
+template void sweep_nodes<3>(Mesh<3>&, const Settings&, ThreadPool&, int, bool, Report&);
+template void return_kinetic<2>(Mesh<2>&, ThreadPool&, Report&);
+template void return_kinetic<3>(Mesh<3>&, ThreadPool&, Report&);
 
 } // namespace ballast::remap

@@ -110,6 +110,7 @@ void carry(VerifyReport& r, int remap_every) {
   for (Block<2>& b : scene.blocks) {
     if (clock.step % remap_every != 0) {
       remap_block(scene, b, clock.step);
+      new_state(scene, b, true);
     }
   }
   const Totals end = totals(scene.blocks[0]);
