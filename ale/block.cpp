@@ -1,5 +1,6 @@
 #include "ale/block.hpp"
 
+#include "core/rows.hpp"
 #include "core/hex_geometry.hpp"
 
 #include <algorithm>
@@ -143,7 +144,6 @@ template <int Dim> void compute_node_mass(Block<Dim>& b, ThreadPool& pool) {
 }
 
 template <int Dim> void compute_owner(Block<Dim>& b, int row) {
-  constexpr double pure_enough = 1 - 1e-12; // what a remap's round-off leaves of others
   const int count = b.grid.cells[0];
   std::int8_t* owner = b.owner_row(row);
   std::fill(owner, owner + count, mixed_cell);
@@ -151,18 +151,17 @@ template <int Dim> void compute_owner(Block<Dim>& b, int row) {
     if (!b.materials[m].store.has_row(row)) {
       continue;
     }
-    const double* f = std::as_const(b.materials[m].store).row(field::fraction, row);
-    for (int i = 0; i < count; ++i) {
-      if (f[i] >= pure_enough) {
-        owner[i] = static_cast<std::int8_t>(m);
-      }
-    }
+    mark_owner(std::as_const(b.materials[m].store).row(field::fraction, row), static_cast<int>(m), 0, count, owner);
   }
 }
 
 void RowRuns::scan(const std::int8_t* owner, int count) {
   pure.clear();
   mixed.clear();
+  if (const int sole = sole_owner(owner, count); sole >= 0) {
+    pure.push_back({sole, 0, count});
+    return;
+  }
   for (int i = 0; i < count;) {
     if (owner[i] == mixed_cell) {
       mixed.push_back(i++);

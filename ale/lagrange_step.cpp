@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/rows.hpp"
 
 namespace ballast {
 
@@ -387,10 +388,7 @@ void advance_row(Scene<Dim>& scene, Block<Dim>& b, int j, int k, double dt, Work
       }
     }
   }
-  const double *v = b.volume.row(r), *v_next = b.next_volume.row(r);
-  for (int i = 0; i < g.cells[0]; ++i) {
-    sums.volume_change += v_next[i] - v[i];
-  }
+  sums.volume_change += lane_sum(b.next_volume.row(r), g.cells[0]) - lane_sum(b.volume.row(r), g.cells[0]);
 }
 
 template <int Dim> StepSums<Dim> work_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {

@@ -49,7 +49,7 @@ void evaluate_row(const Eos& eos,
         for (int i = 0; i < count; ++i) {
           const double p = m.pressure(rho[i], e[i]);
           const bool at_reference =
-              std::abs(rho[i] - ref.rho) <= rho_band && std::abs(e[i] - ref.e) <= e_band;
+              (std::abs(rho[i] - ref.rho) <= rho_band) & (std::abs(e[i] - ref.e) <= e_band);
           gauge_pressure[i] = (at_reference ? 0.0 : p - ref.p) + ref.offset;
           modulus[i] = rho[i] * m.sound_speed_squared(rho[i], e[i]);
         }

@@ -72,7 +72,7 @@ inline void mass_fluxes(const TileStore& store, const RowField& volumes, const L
     };
     const double rho = density(vm.mid, vf.mid, vv.mid);
     const RiseFactors kv = rise_factors(0.5 * (vv.behind + vv.mid), 0.5 * (vv.mid + vv.ahead), vv.mid, 0.5 * (vv.mid - std::abs(t)));
-    const double rise = limited_rise(density(vm.behind, vf.behind, vv.behind), rho, density(vm.ahead, vf.ahead, vv.ahead), kv, unlimited);
+    const double rise = limited_rise(density(vm.behind, vf.behind, vv.behind), rho, density(vm.ahead, vf.ahead, vv.ahead), kv.central, kv.edge, unlimited);
     const double some = t * (rho + (good ? rise : 0.0));
     const bool whole = (std::abs(t) == vf.mid * vv.mid) & (t != 0); // nothing stays behind, not even round-off
     const double all = select(positive, vm.mid, -vm.mid), given = whole ? all : some;
@@ -92,7 +92,7 @@ inline void intensive_fluxes(const TileStore& store, int field, const Line& l, d
   for (int i = 0; i < faces; ++i) {
     const double t = mass_flux[i];
     const Three vq = pick(q, i, where_positive(t));
-    out[i] = t * (vq.mid + limited_rise(vq.behind, vq.mid, vq.ahead, {central[i], edge[i]}, unlimited));
+    out[i] = t * (vq.mid + limited_rise(vq.behind, vq.mid, vq.ahead, central[i], edge[i], unlimited));
   }
 }
 

@@ -35,11 +35,11 @@ struct RiseFactors {
 /// Rise of q along the flow, from the donor's value q with the neighbours it comes from (behind) and goes to
 /// (ahead). unlimited > 0: the central slope (a number, since g++ 12 does not vectorise a choice by an
 /// invariant flag).
-[[gnu::always_inline]] inline double limited_rise(double behind, double q, double ahead, const RiseFactors& k, double unlimited) {
+[[gnu::always_inline]] inline double limited_rise(double behind, double q, double ahead, double central, double edge, double unlimited) {
   const double whole = ahead - behind, below = q - behind, above = ahead - q;
   // Values, not std::min's references: the row loops that call this must vectorise.
-  const double a = std::abs(below), b = std::abs(above), c = std::abs(whole) * k.central;
-  const double bound = (a < b ? a : b) * k.edge;
+  const double a = std::abs(below), b = std::abs(above), c = std::abs(whole) * central;
+  const double bound = (a < b ? a : b) * edge;
   const double least = c < bound ? c : bound;
   // By sign, not by product: that would overflow beside empty cells.
   const double same_sign = std::copysign(1.0, below) * std::copysign(1.0, above) > 0 ? least : 0.0;

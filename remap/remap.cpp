@@ -1,4 +1,5 @@
 #include "core/boundary.hpp"
+#include "core/rows.hpp"
 #include "remap/internal.hpp"
 
 #include <algorithm>
@@ -133,7 +134,6 @@ template <int Dim> void fill_void_outside(Mesh<Dim>& m, int axis, int side) {
 
 template <int Dim> void exchange_owner(Mesh<Dim>& m, ThreadPool& pool) {
   const Grid& g = m.grid;
-  constexpr double pure_enough = 1 - 1e-12;
   parallel_ranges(pool, g.cell_rows(), [&](int begin, int end, int) {
     for (int r = begin; r < end; ++r) {
       std::int8_t* owner = m.owner_row(r);
@@ -143,10 +143,7 @@ template <int Dim> void exchange_owner(Mesh<Dim>& m, ThreadPool& pool) {
         if (!store.has_row(r)) {
           continue;
         }
-        const double* f = store.row(0, r);
-        for (int i = -g.ghost[0]; i < g.cells[0] + g.ghost[0]; ++i) {
-          owner[i] = f[i] >= pure_enough ? static_cast<std::int8_t>(q) : owner[i];
-        }
+        mark_owner(store.row(0, r), q, -g.ghost[0], g.cells[0] + g.ghost[0], owner);
       }
     }
   });

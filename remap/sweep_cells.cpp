@@ -5,6 +5,7 @@
 // slabs of the donor's planes), mass = volume x limited density, intensives = mass x limited value.
 // Slopes are taken in the volume (density) and mass (intensives) coordinate along the line, which is
 // exact for linear data on rectilinear meshes; next to mixed cells the value is constant.
+#include "core/rows.hpp"
 #include "remap/internal.hpp"
 
 #include "remap/flux_rows.hpp"
@@ -49,17 +50,6 @@ private:
   std::vector<char> present_;
   std::vector<double> data_;
 };
-
-/// The material of all `count` cells from `owner` on, or -1.
-int sole_owner(const std::int8_t* owner, int count) {
-  int others = 0;
-  const std::int8_t first = owner[0];
-#pragma omp simd reduction(+ : others)
-  for (int i = 0; i < count; ++i) {
-    others += owner[i] != first ? 1 : 0;
-  }
-  return others == 0 && first >= 0 ? first : -1;
-}
 
 /// Volumes that a mixed donor gives through one face, into the materials' flux[0] at `face`.
 template <int Dim>

@@ -5,6 +5,7 @@
 // mass fluxes: node masses then stay the sum of their shares exactly, whatever the flow. Velocity is
 // carried by the upwind node's limited value in the mass coordinate. Kinetic energy carried as its own
 // scalar, less what the new velocities hold, is the loss; it returns to the cells by corner mass.
+#include "core/rows.hpp"
 #include "remap/internal.hpp"
 
 #include "remap/limiter.hpp"
@@ -56,7 +57,7 @@ public:
         const double ua = u0[i], ub = u1[i], uc = u2[i], ud = u3[i], give = t[i];
         const std::uint64_t positive = where_positive(give);
         const double donor = select(positive, ub, uc), behind = select(positive, ua, ud), ahead = select(positive, uc, ub);
-        const double value = donor + limited_rise(behind, donor, ahead, {central[i], edge[i]}, unlimited);
+        const double value = donor + limited_rise(behind, donor, ahead, central[i], edge[i], unlimited);
         momentum[i] = give * value;
         kinetic[i] += 0.5 * give * value * value;
       }
@@ -93,9 +94,15 @@ public:
     boundary_sums(j, k, low, high, step, sums);
     hold_walls(j, k, sums);
     double* all = loss_.row(r);
+    const double* lost = lost_.data();
+    sums.loss += lane_sum(lost, nodes_);
+    if (first_) {
+      std::copy(lost, lost + nodes_, all);
+      return;
+    }
+#pragma omp simd
     for (int i = 0; i < nodes_; ++i) {
-      sums.loss += loss[i];
-      all[i] = first_ ? loss[i] : all[i] + loss[i];
+      all[i] += lost[i];
     }
   }
 
@@ -352,7 +359,7 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
   const RowField &loss = m.scratch->node_loss, &node_mass = m.node_mass;
   std::vector<SlabSums> sums(static_cast<std::size_t>(g.slabs()));
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
-    std::vector<double> per_mass(static_cast<std::size_t>(g.cells[0]));
+    std::vector<double> per_mass(static_cast<std::size_t>(g.cells[0])), returned(per_mass.size());
     double* gains = per_mass.data();
     for (int s = begin; s < end; ++s) {
       SlabSums& slab = sums[static_cast<std::size_t>(s)];
@@ -383,20 +390,20 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
           if (m.is_void(mat) || !store.has_row(r)) {
             continue;
           }
-          double* e = store.row(2, r);
+          double *e = store.row(2, r), *given = returned.data();
           const double* mass = std::as_const(store).row(1, r);
+          int cut = 0;
+#pragma omp simd reduction(+ : cut)
           for (int i = 0; i < g.cells[0]; ++i) {
-            if (mass[i] == 0) {
-              continue;
-            }
-            double gain = per_mass[static_cast<std::size_t>(i)];
-            if (gain < 0 && gain < -largest_fall * e[i]) {
-              gain = std::min(0.0, -largest_fall * e[i]);
-              ++slab.floors;
-            }
+            const double wanted = gains[i], least = -largest_fall * e[i], floor = least < 0 ? least : 0.0;
+            const bool some = mass[i] > 0, falls = (wanted < 0) & (wanted < least);
+            const double limited = falls ? floor : wanted, gain = some ? limited : 0.0;
+            cut += some & falls ? 1 : 0;
             e[i] += gain;
-            slab.returned += mass[i] * gain;
+            given[i] = mass[i] * gain;
           }
+          slab.floors += cut;
+          slab.returned += lane_sum(given, g.cells[0]);
         }
       }
     }
