@@ -101,6 +101,7 @@ double triad() {
 } // namespace
 
 int main(int argc, char** argv) {
+  ballast::keep_freed_memory();
   const int threads = argc > 1 ? std::atoi(argv[1]) : 1;
   const int only = argc > 2 ? std::atoi(argv[2]) : 0;
   if (only == 0) {

@@ -1,6 +1,18 @@
 #include "core/threads.hpp"
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 namespace ballast {
+
+void keep_freed_memory() {
+#ifdef M_MMAP_THRESHOLD
+  constexpr int largest = 1 << 30; // bytes
+  mallopt(M_MMAP_THRESHOLD, largest);
+  mallopt(M_TRIM_THRESHOLD, largest);
+#endif
+}
 
 namespace {
 constexpr int spins_before_sleep = 20000; // a step's phases follow within microseconds

@@ -30,6 +30,10 @@ private:
   std::atomic<bool> stop_{false};
 };
 
+/// Keeps freed memory in the process: a step's work arrays then come back without page faults. For a program's
+/// main, before anything large is allocated; nothing happens where the C library has no such setting.
+void keep_freed_memory();
+
 /// Calls body(begin, end, thread) on contiguous parts of [0, count), one a thread.
 template <class Body> void parallel_ranges(ThreadPool& pool, int count, Body&& body) {
   const int threads = pool.size();

@@ -33,28 +33,25 @@ std::string describe(const Eos& eos) {
   return std::visit([](const auto& m) { return describe_one(m); }, eos);
 }
 
-void evaluate_row(const Eos& eos,
-                  const GaugeReference& ref,
-                  int count,
-                  const double* rho,
-                  const double* e,
-                  double* gauge_pressure,
-                  double* modulus) {
-  const double rho_band = snap_ulp * std::abs(ref.rho);
-  const double e_band = snap_ulp * std::abs(ref.e);
-  std::visit(
-      [&](const auto& shared) {
-        const auto m = shared; // a local copy: the compiler then knows that stores do not change it
+namespace {
+/// By value: the compiler then knows that stores change neither the model nor the reference.
+template <class Model>
+void evaluate_model(const Model model, const GaugeReference ref, int count, const double* rho, const double* e, double* gauge_pressure, double* modulus) {
+  const double rho_band = snap_ulp * std::abs(ref.rho), e_band = snap_ulp * std::abs(ref.e);
 #pragma omp simd
-        for (int i = 0; i < count; ++i) {
-          const double p = m.pressure(rho[i], e[i]);
-          const bool at_reference =
-              (std::abs(rho[i] - ref.rho) <= rho_band) & (std::abs(e[i] - ref.e) <= e_band);
-          gauge_pressure[i] = (at_reference ? 0.0 : p - ref.p) + ref.offset;
-          modulus[i] = rho[i] * m.sound_speed_squared(rho[i], e[i]);
-        }
-      },
-      eos);
+  for (int i = 0; i < count; ++i) {
+    const double r = rho[i], energy = e[i];
+    const double away = model.pressure(r, energy) - ref.p, c2 = model.sound_speed_squared(r, energy);
+    const bool at_reference = (std::abs(r - ref.rho) <= rho_band) & (std::abs(energy - ref.e) <= e_band);
+    const double difference = at_reference ? 0.0 : away;
+    gauge_pressure[i] = difference + ref.offset;
+    modulus[i] = r * c2;
+  }
+}
+} // namespace
+
+void evaluate_row(const Eos& eos, const GaugeReference& ref, int count, const double* rho, const double* e, double* gauge_pressure, double* modulus) {
+  std::visit([&](const auto& model) { evaluate_model(model, ref, count, rho, e, gauge_pressure, modulus); }, eos);
 }
 
 } // namespace ballast

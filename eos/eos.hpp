@@ -14,8 +14,8 @@ namespace ballast {
 struct IdealGas {
   double gamma = 1.4;
 
-  double pressure(double rho, double e) const { return (gamma - 1) * rho * e; }
-  double sound_speed_squared(double rho, double e) const {
+  [[gnu::always_inline]] double pressure(double rho, double e) const { return (gamma - 1) * rho * e; }
+  [[gnu::always_inline]] double sound_speed_squared(double rho, double e) const {
     return gamma * pressure(rho, e) / rho;
   }
   double energy(double rho, double p) const { return p / ((gamma - 1) * rho); }
@@ -26,10 +26,10 @@ struct StiffenedGas {
   double gamma = 4.4;
   double p_infinity = 6e8; ///< Pa
 
-  double pressure(double rho, double e) const {
+  [[gnu::always_inline]] double pressure(double rho, double e) const {
     return (gamma - 1) * rho * e - gamma * p_infinity;
   }
-  double sound_speed_squared(double rho, double e) const {
+  [[gnu::always_inline]] double sound_speed_squared(double rho, double e) const {
     return gamma * (pressure(rho, e) + p_infinity) / rho;
   }
   double energy(double rho, double p) const {
@@ -50,12 +50,16 @@ struct MieGruneisen {
   double gamma0 = 1;    ///< Grueneisen parameter at rho0
   bool gamma_constant = false;
 
-  double gamma_rho(double rho) const { return gamma0 * (gamma_constant ? rho : rho0); }
-  double pressure(double rho, double e) const {
+  [[gnu::always_inline]] double gamma_rho(double rho) const {
+    // Weights, not a choice by the flag: g++ 12 does not vectorise that.
+    const double moving = gamma_constant ? 1.0 : 0.0;
+    return gamma0 * (moving * rho + (1 - moving) * rho0);
+  }
+  [[gnu::always_inline]] double pressure(double rho, double e) const {
     const Curve h = curve(rho);
     return h.p + gamma_rho(rho) * (e - h.e);
   }
-  double sound_speed_squared(double rho, double e) const {
+  [[gnu::always_inline]] double sound_speed_squared(double rho, double e) const {
     const Curve h = curve(rho);
     const double g = gamma_rho(rho);
     const double p = h.p + g * (e - h.e);
@@ -71,7 +75,7 @@ private:
   struct Curve {
     double p, e, dp, de; // reference curve and its derivatives by density
   };
-  Curve curve(double rho) const {
+  [[gnu::always_inline]] Curve curve(double rho) const {
     const double eta = 1 - rho0 / rho;
     const double d = 1 / (1 - s * eta);
     const double k0 = rho0 * c0 * c0;
@@ -79,10 +83,12 @@ private:
     const double ph = k0 * eta * d * d;
     const double dph = k0 * (1 + s * eta) * d * d * d;
     const bool tension = eta < 0;
-    return {tension ? k0 * (rho / rho0 - 1) : ph,
-            tension ? 0.0 : 0.5 * ph * eta / rho0,
-            tension ? c0 * c0 : dph * eta_rho,
-            tension ? 0.0 : 0.5 * (dph * eta + ph) / rho0 * eta_rho};
+    const double p_pull = k0 * (rho / rho0 - 1), e_push = 0.5 * ph * eta / rho0;
+    const double dp_push = dph * eta_rho, de_push = 0.5 * (dph * eta + ph) / rho0 * eta_rho;
+    // Plain selections of values, so that rows vectorise.
+    const double p = tension ? p_pull : ph, e = tension ? 0.0 : e_push;
+    const double dp = tension ? c0 * c0 : dp_push, de = tension ? 0.0 : de_push;
+    return {p, e, dp, de};
   }
 };
 

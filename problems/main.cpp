@@ -1,5 +1,6 @@
 // The program `ballast`: reads the command line, calls a command, turns what it throws into an exit
 // status.
+#include "core/threads.hpp"
 #include "core/error.hpp"
 #include "core/fp_traps.hpp"
 #include "post/report.hpp"
@@ -95,6 +96,7 @@ int dispatch(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   ballast::trap_floating_point_errors();
+  ballast::keep_freed_memory();
   try {
     return dispatch(argc, argv);
   } catch (const ballast::Error& error) {
