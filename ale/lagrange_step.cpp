@@ -358,6 +358,7 @@ void advance_pure(Block<Dim>& b, int r, const RowRuns::Run& run, double dt, cons
 template <int Dim> struct StepSums {
   double void_work = 0, volume_change = 0;
   int failed = 0;
+  std::array<int, 3> failed_cell = {-1, -1, -1}; ///< the last of them
 };
 
 template <int Dim>
@@ -378,13 +379,17 @@ void advance_row(Scene<Dim>& scene, Block<Dim>& b, int j, int k, double dt, Work
         sums.void_work += b.reference_pressure * (b.next_volume.row(r)[i] - b.volume.row(r)[i]) - buffer.rows.work[i];
       }
     }
+    const int before = sums.failed;
     advance_pure(b, r, run, dt, buffer.rows, sums.failed);
+    sums.failed_cell = sums.failed > before ? std::array<int, 3>{run.begin, j, k} : sums.failed_cell;
   }
   for (const int i : buffer.runs.mixed) {
     sums.void_work += advance_mixed(scene, b, r, i, dt, buffer.rows);
     for (MaterialSlot& slot : b.materials) {
       if (slot.strength && std::as_const(slot.store).row(field::fraction, r)[i] > 0) {
-        sums.failed += update_stress<Dim>(slot.material, dt, 1, stress_rows<Dim>(slot, r, i, &buffer.rows));
+        const int failed = update_stress<Dim>(slot.material, dt, 1, stress_rows<Dim>(slot, r, i, &buffer.rows));
+        sums.failed += failed;
+        sums.failed_cell = failed > 0 ? std::array<int, 3>{i, j, k} : sums.failed_cell;
       }
     }
   }
@@ -407,6 +412,7 @@ template <int Dim> StepSums<Dim> work_pass(Scene<Dim>& scene, Block<Dim>& b, dou
   for (const auto& s : sums) {
     total.void_work += s.void_work;
     total.volume_change += s.volume_change;
+    total.failed_cell = s.failed > 0 ? s.failed_cell : total.failed_cell;
     total.failed += s.failed;
   }
   return total;
@@ -435,8 +441,9 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
     }
     if (attempt >= most_retries || std::isnan(worst.ratio)) {
       throw NumericalFailure(fmt::format(
-          "block {}, cell ({}, {}, {}): volume would fall to {:g} of its value at time {:g} s, dt {:g} s",
-          scene.blocks[where].name, worst.cell[0], worst.cell[1], worst.cell[2], worst.ratio, clock.time, clock.dt));
+          "block {}, cell ({}, {}, {}), material {}: volume would fall to {:g} of its value at time {:g} s, dt {:g} s",
+          scene.blocks[where].name, worst.cell[0], worst.cell[1], worst.cell[2],
+          contents(scene.blocks[where], worst.cell), worst.ratio, clock.time, clock.dt));
     }
     clock.dt *= 0.5;
     clock.limit = {clock.dt, static_cast<int>(where), worst.cell, -1, DtCause::retry};
@@ -452,8 +459,11 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
     scene.ledger.void_work += sums.void_work;
     scene.ledger.ambient_work -= b.reference_pressure * sums.volume_change;
     if (sums.failed > 0) {
-      throw NumericalFailure(fmt::format("block {}: radial return did not converge in {} cells at time {:g} s",
-                                         b.name, sums.failed, clock.time));
+      const auto& c = sums.failed_cell;
+      throw NumericalFailure(fmt::format(
+          "block {}, from cell ({}, {}, {}) on, material {}: the return to the yield surface (equivalent stress, Pa) did not "
+          "converge in {} cells at time {:g} s",
+          b.name, c[0], c[1], c[2], contents(b, c), sums.failed, clock.time));
     }
     for (std::size_t d = 0; d < Dim; ++d) {
       b.position[d].swap(b.next_position[d]);

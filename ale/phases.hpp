@@ -34,6 +34,9 @@ template <int Dim> void new_state(Scene<Dim>& scene, Block<Dim>& block, bool rem
 /// One whole step: choose dt, Lagrangian step, remap where due, state.
 template <int Dim> void advance(Scene<Dim>& scene, Clock& clock);
 
+/// What a cell holds, for messages: "copper", or "copper 0.4, void 0.6".
+template <int Dim> std::string contents(const Block<Dim>& block, const std::array<int, 3>& cell);
+
 struct Totals {
   std::vector<double> mass, internal_energy, volume; ///< by material
   double kinetic_energy = 0;

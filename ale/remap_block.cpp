@@ -1,7 +1,10 @@
 // Remap of a block: remap/ moves the conserved quantities, this brings the materials back to a state.
 #include "ale/phases.hpp"
 #include "ale/strength_update.hpp"
+#include "core/error.hpp"
 #include "remap/mesh.hpp"
+
+#include <fmt/format.h>
 
 #include <utility>
 
@@ -60,6 +63,12 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   remap::Mesh<Dim> mesh = view(b);
   const remap::Settings settings{.normal = scene.numerics.normal, .return_kinetic = scene.numerics.energy_return};
   const remap::Report report = remap::remap(mesh, settings, *scene.pool, step / b.motion.remap_every);
+  if (report.tangled[0] >= 0) {
+    const auto& c = report.tangled;
+    throw NumericalFailure(fmt::format("block {}, cell ({}, {}, {}), material {}: volume falls to nothing on the remap's way to its "
+                                       "target mesh; remap more often (motion.remap_every)",
+                                       b.name, c[0], c[1], c[2], contents(b, c)));
+  }
   const Grid& g = b.grid;
   parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
     for (int s = begin; s < end; ++s) {

@@ -360,6 +360,23 @@ template <int Dim> void update_state(Block<Dim>& b, ThreadPool& pool) {
   }
 }
 
+template <int Dim> std::string contents(const Block<Dim>& b, const std::array<int, 3>& cell) {
+  std::string out;
+  if (cell[0] < 0 || cell[1] < 0 || cell[2] < 0) {
+    return "unknown";
+  }
+  for (const MaterialSlot& slot : b.materials) {
+    const double f = slot.store.row(field::fraction, b.grid.cell_row(cell[1], cell[2]))[cell[0]];
+    if (f >= 1) {
+      return slot.material.name;
+    }
+    if (f > 0) {
+      out += fmt::format("{}{} {:.3g}", out.empty() ? "" : ", ", slot.material.name, f);
+    }
+  }
+  return out;
+}
+
 template <int Dim> Totals totals(const Block<Dim>& b) {
   const Grid& g = b.grid;
   Totals t;
@@ -414,6 +431,8 @@ template long close_voids<2>(Block<2>&, ThreadPool&);
 template long close_voids<3>(Block<3>&, ThreadPool&);
 template long open_voids<2>(Block<2>&, ThreadPool&);
 template long open_voids<3>(Block<3>&, ThreadPool&);
+template std::string contents<2>(const Block<2>&, const std::array<int, 3>&);
+template std::string contents<3>(const Block<3>&, const std::array<int, 3>&);
 template Totals totals<2>(const Block<2>&);
 template Totals totals<3>(const Block<3>&);
 

@@ -181,6 +181,38 @@ double estimated_steps(const SceneSpec& scene) {
   return fastest > 0 ? scene.end_time * fastest / (scene.numerics.cfl * smallest) : 0;
 }
 
+Cost estimated_cost(const SceneSpec& scene) {
+  const int dim = scene.geometry == Geometry::three_d ? 3 : 2;
+  const bool strength = std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return has_strength(m.strength); });
+  const bool mixed = scene.materials.size() > 1 || scene.background < 0;
+  Cost c;
+  c.steps = estimated_steps(scene);
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) {
+    c.cells *= static_cast<double>(scene.mesh_lines[d].size() - 1);
+  }
+  const int deviator = strength ? (dim == 2 ? 3 : 5) : 0;
+  // Of the block: nodes 5 vectors and 3 masses, cells 7 scalars, 5 a logical axis, the deviator and two moduli; of
+  // its materials what one fills a cell with, conserved twice, derived once.
+  const int block = 5 * dim + 3 + 7 + 5 * dim + deviator + (strength ? 2 : 0);
+  const int material = 2 * (3 + deviator + (strength ? 1 : 0)) + (strength ? 3 : 2);
+  c.bytes_per_cell = 8.0 * (block + material);
+  // Measured microseconds a cell-step on one core (docs/performance.md); cells with several materials cost more.
+  double microseconds = dim == 2 ? (strength ? 0.45 : 0.15) : (strength ? 0.7 : 0.35);
+  if (scene.motion.policy == MotionPolicy::lagrangian) {
+    microseconds *= 0.5;
+  } else {
+    microseconds *= mixed ? 1.6 : 1;
+  }
+  c.core_seconds = 1e-6 * microseconds * c.cells * c.steps;
+  return c;
+}
+
+namespace {
+std::string spoken_time(double seconds) {
+  return seconds < 90 ? fmt::format("{:.2g} s", seconds) : seconds < 5400 ? fmt::format("{:.2g} min", seconds / 60) : fmt::format("{:.2g} h", seconds / 3600);
+}
+} // namespace
+
 std::string scene_table(const SceneSpec& scene) {
   std::string out = fmt::format("{}\n{}, to {:g} us, ambient {:g} Pa, {:g} K\n",
                                 scene.title,
@@ -197,7 +229,9 @@ std::string scene_table(const SceneSpec& scene) {
                        g.at[2],
                        g.rides ? "rides with the material" : "fixed");
   }
-  return out + fmt::format("about {:.0f} steps\n", estimated_steps(scene));
+  const Cost cost = estimated_cost(scene);
+  return out + fmt::format("about {:.0f} steps, {:.0f} bytes a cell ({:.3g} MB), {} on one core\n", cost.steps, cost.bytes_per_cell,
+                           cost.bytes_per_cell * cost.cells * 1e-6, spoken_time(cost.core_seconds));
 }
 
 } // namespace ballast

@@ -22,6 +22,13 @@ double cell_volume(Geometry geometry, const Point& lo, const Point& hi);
 /// cfl.
 double estimated_steps(const SceneSpec& scene);
 
+/// What a run will cost, roughly: memory within a third, time within a factor of two.
+struct Cost {
+  double cells = 1, steps = 0, bytes_per_cell = 0;
+  double core_seconds = 0; ///< on one core like those of docs/performance.md
+};
+Cost estimated_cost(const SceneSpec& scene);
+
 /// Several tables: geometry, mesh and boundaries, materials, bodies, gauges, numerics.
 std::string scene_table(const SceneSpec& scene);
 

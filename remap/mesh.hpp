@@ -76,6 +76,8 @@ struct Report {
   long energy_floors = 0;      ///< cells where a negative return was cut
   double sliver_mass = 0, sliver_energy = 0;
   long slivers = 0;
+  /// A cell that even the smallest part of the motion would turn inside out; its nodes are where they were, i < 0: none.
+  std::array<int, 3> tangled = {-1, -1, -1};
 };
 
 /// Moves everything from mesh.position to mesh.target. `order`: which axis goes first alternates

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace ballast::remap {
@@ -16,6 +17,7 @@ struct Strain {
   double ratio = 1; ///< largest max(V* / v, v / V*) of volumes V* between sweeps, v = min(V_old, V_new)
 };
 constexpr double largest_ratio = 5;
+constexpr double hopeless_ratio = 1e3; ///< of the smallest part: a volume between sweeps is gone
 
 template <int Dim> void strain_of_row(const Mesh<Dim>& m, int r, long order, std::vector<double>& between, Strain& worst) {
   const Grid& g = m.grid;
@@ -65,6 +67,30 @@ template <int Dim> Strain strain_of(const Mesh<Dim>& m, ThreadPool& pool, long o
     all = {std::max(all.share, s.share), std::max(all.ratio, s.ratio)};
   }
   return all;
+}
+
+/// The cell whose volumes between sweeps are worst.
+template <int Dim> std::array<int, 3> worst_cell(const Mesh<Dim>& m, long order) {
+  const Grid& g = m.grid;
+  const auto n = static_cast<std::size_t>(g.cells[0]);
+  std::vector<double> between(static_cast<std::size_t>(Dim) * n);
+  std::array<int, 3> worst = {0, 0, 0};
+  double least = std::numeric_limits<double>::infinity();
+  for (int s = 0; s < g.slabs(); ++s) {
+    for (int q = 0; q < g.rows_per_slab(); ++q) {
+      const auto [j, k] = g.in_slab(s, q);
+      Strain ignored;
+      strain_of_row(m, g.cell_row(j, k), order, between, ignored);
+      for (std::size_t c = 0; c < between.size(); ++c) {
+        const double share = between[c] / m.volume.row(g.cell_row(j, k))[c % n];
+        if (!(share >= least)) {
+          least = share;
+          worst = {static_cast<int>(c % n), j, k};
+        }
+      }
+    }
+  }
+  return worst;
 }
 
 /// Tiles within reach of a tile where a material is present are allocated, others released.
@@ -244,6 +270,10 @@ template <int Dim> Report remap(Mesh<Dim>& m, const Settings& settings, ThreadPo
     if (!fits(s) && part > smallest_part) {
       part = 0.5 * (next - done);
       continue;
+    }
+    if (!(s.ratio < hopeless_ratio)) {
+      report.tangled = worst_cell(m, turn);
+      return report;
     }
     sweep_all(m, settings, pool, turn, report);
     m.position = to;
