@@ -39,6 +39,9 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
       m.fixed[a][s] = b.boundary.fixes_normal_velocity(axis, side);
       m.fixed_velocity[a][s] = b.boundary.at(axis, side).velocity;
       m.void_outside[a][s] = b.boundary.at(axis, side).kind == BoundaryKind::free;
+      if (const BoundarySide& from = b.boundary.at(axis, side); from.kind == BoundaryKind::inflow) {
+        m.inflow[a][s] = {from.inflow.material, from.inflow.density, from.inflow.specific_energy};
+      }
     }
   }
   return m;
