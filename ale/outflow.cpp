@@ -38,8 +38,9 @@ double outflow_velocity(const Block<Dim>& b, int axis, int side, const std::arra
   };
   const RowField &u = b.velocity[a], &x = b.position[a];
   const double u0 = inside(u, 0), x1 = inside(x, 1), length = std::abs(inside(x, 0) - x1);
-  const double s = std::min(1.0, edge_wave_speed(b, axis, side, node) * dt / length);
   const double d1 = u0 - inside(u, 1);
+  const double carried = b.motion.policy == MotionPolicy::lagrangian ? 0.0 : (side == 0 ? -1 : 1) * (u0 - 0.5 * d1);
+  const double s = std::min(1.0, (edge_wave_speed(b, axis, side, node) + carried) * dt / length);
   if (!(s > 0) || d1 == 0) {
     return u0;
   }
@@ -51,6 +52,56 @@ double outflow_velocity(const Block<Dim>& b, int axis, int side, const std::arra
   return u0 - d1 * std::clamp(s * (rise / d1), 0.0, 1.0);
 }
 
+namespace {
+
+/// Calls visit(axis, node row, i) for every node of every outflow side, in order.
+template <int Dim, class Visit> void for_each_outflow_node(const Block<Dim>& b, Visit&& visit) {
+  const Grid& g = b.grid;
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      if (b.boundary.at(axis, side).kind != BoundaryKind::outflow) {
+        continue;
+      }
+      std::array<int, 3> first = {0, 0, 0}, last = {g.cells[0], g.cells[1], Dim == 3 ? g.cells[2] : 0};
+      const auto a = static_cast<std::size_t>(axis);
+      (side == 0 ? last : first)[a] = (side == 0 ? first : last)[a];
+      for (int k = first[2]; k <= last[2]; ++k) {
+        for (int j = first[1]; j <= last[1]; ++j) {
+          for (int i = first[0]; i <= last[0]; ++i) {
+            visit(axis, g.node_row(j, k), i);
+          }
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+
+template <int Dim> std::vector<double> outflow_velocities(const Block<Dim>& b) {
+  std::vector<double> u;
+  for_each_outflow_node(b, [&](int axis, int r, int i) { u.push_back(b.velocity[static_cast<std::size_t>(axis)].row(r)[i]); });
+  return u;
+}
+
+template <int Dim> void hold_outflow(Block<Dim>& b, const std::vector<double>& wanted, Ledger& ledger) {
+  std::size_t n = 0;
+  for_each_outflow_node(b, [&](int axis, int r, int i) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double want = wanted[n++], m = b.node_mass.row(r)[i];
+    double& u = b.velocity[a].row(r)[i];
+    if (m > 0) {
+      ledger.momentum_out[a] += m * (u - want);
+      ledger.energy_out += 0.5 * m * (u - want) * (u + want);
+      u = want;
+    }
+  });
+}
+
+template std::vector<double> outflow_velocities<2>(const Block<2>&);
+template std::vector<double> outflow_velocities<3>(const Block<3>&);
+template void hold_outflow<2>(Block<2>&, const std::vector<double>&, Ledger&);
+template void hold_outflow<3>(Block<3>&, const std::vector<double>&, Ledger&);
 template double outflow_velocity<2>(const Block<2>&, int, int, const std::array<int, 3>&, double);
 template double outflow_velocity<3>(const Block<3>&, int, int, const std::array<int, 3>&, double);
 

@@ -10,11 +10,18 @@
 // R. L. Higdon, Math. Comp. 47 (1986) 437 (first-order condition); only velocities at the start of the step enter.
 #pragma once
 
-#include "ale/block.hpp"
+#include "ale/scene.hpp"
+
+#include <vector>
 
 namespace ballast {
 
 /// New velocity (m/s) along `axis` of boundary node (i, j, k) on side `side` (0 low, 1 high) after dt (s).
 template <int Dim> double outflow_velocity(const Block<Dim>& b, int axis, int side, const std::array<int, 3>& node, double dt);
+
+/// Normal velocities of all outflow nodes, and their return after a remap: the rule above counts what flows through
+/// the mesh already, the remap's own upwind mix would count it again. What that takes goes out with the flow.
+template <int Dim> std::vector<double> outflow_velocities(const Block<Dim>& b);
+template <int Dim> void hold_outflow(Block<Dim>& b, const std::vector<double>& wanted, Ledger& ledger);
 
 } // namespace ballast

@@ -1,4 +1,5 @@
 // Remap of a block: remap/ moves the conserved quantities, this brings the materials back to a state.
+#include "ale/outflow.hpp"
 #include "ale/phases.hpp"
 #include "ale/strength_update.hpp"
 #include "remap/mesh.hpp"
@@ -62,6 +63,7 @@ template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
 template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step) {
   remap::Mesh<Dim> mesh = view(b);
   const remap::Settings settings{.normal = scene.numerics.normal, .return_kinetic = scene.numerics.energy_return};
+  const std::vector<double> leaving = outflow_velocities(b);
   const remap::Report report = remap::remap(mesh, settings, *scene.pool, step / b.motion.remap_every);
   const Grid& g = b.grid;
   parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
@@ -74,6 +76,7 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   });
   compute_node_mass(b, *scene.pool);
   rest_massless_nodes(b);
+  hold_outflow(b, leaving, scene.ledger);
   if (b.any_strength()) {
     pull_back_to_yield(b, *scene.pool);
   }
