@@ -26,34 +26,6 @@ template <int Dim> double edge_wave_speed(const Block<Dim>& b, int axis, int sid
   return fastest;
 }
 
-} // namespace
-
-template <int Dim>
-double outflow_velocity(const Block<Dim>& b, int axis, int side, const std::array<int, 3>& node, double dt) {
-  const auto a = static_cast<std::size_t>(axis);
-  const auto inside = [&](const RowField& f, int steps) { // at `steps` nodes further in
-    std::array<int, 3> at = node;
-    at[a] += side == 0 ? steps : -steps;
-    return f.row(b.grid.node_row(at[1], at[2]))[at[0]];
-  };
-  const RowField &u = b.velocity[a], &x = b.position[a];
-  const double u0 = inside(u, 0), x1 = inside(x, 1), length = std::abs(inside(x, 0) - x1);
-  const double d1 = u0 - inside(u, 1);
-  const double carried = b.motion.policy == MotionPolicy::lagrangian ? 0.0 : (side == 0 ? -1 : 1) * (u0 - 0.5 * d1);
-  const double s = std::min(1.0, (edge_wave_speed(b, axis, side, node) + carried) * dt / length);
-  if (!(s > 0) || d1 == 0) {
-    return u0;
-  }
-  double rise = d1; // over the edge cell, at the foot of the characteristic
-  if (b.grid.cells[a] > 1) {
-    const double d2 = (inside(u, 1) - inside(u, 2)) * (length / std::abs(x1 - inside(x, 2)));
-    rise += 0.5 * (1 - s) * (d1 - d2);
-  }
-  return u0 - d1 * std::clamp(s * (rise / d1), 0.0, 1.0);
-}
-
-namespace {
-
 /// Calls visit(axis, node row, i) for every node of every outflow side, in order.
 template <int Dim, class Visit> void for_each_outflow_node(const Block<Dim>& b, Visit&& visit) {
   const Grid& g = b.grid;
@@ -78,30 +50,58 @@ template <int Dim, class Visit> void for_each_outflow_node(const Block<Dim>& b, 
 
 } // namespace
 
-template <int Dim> std::vector<double> outflow_velocities(const Block<Dim>& b) {
-  std::vector<double> u;
-  for_each_outflow_node(b, [&](int axis, int r, int i) { u.push_back(b.velocity[static_cast<std::size_t>(axis)].row(r)[i]); });
-  return u;
+template <int Dim>
+double outflow_velocity(const Block<Dim>& b, int axis, int side, const std::array<int, 3>& node, double dt) {
+  const auto a = static_cast<std::size_t>(axis);
+  const auto inside = [&](const RowField& f, int steps) { // at `steps` nodes further in
+    std::array<int, 3> at = node;
+    at[a] += side == 0 ? steps : -steps;
+    return f.row(b.grid.node_row(at[1], at[2]))[at[0]];
+  };
+  const RowField &u = b.velocity[a], &x = b.position[a];
+  const double u0 = inside(u, 0), x1 = inside(x, 1), length = std::abs(inside(x, 0) - x1);
+  const double d1 = u0 - inside(u, 1), outwards = side == 0 ? -1 : 1;
+  const double carried = b.motion.policy == MotionPolicy::lagrangian ? 0.0 : outwards * (u0 - 0.5 * d1);
+  const double s = std::min(1.0, (edge_wave_speed(b, axis, side, node) + carried) * dt / length);
+  if (!(s > 0) || d1 == 0) {
+    return u0;
+  }
+  double rise = d1; // over the edge cell, at the foot of the characteristic
+  if (b.grid.cells[a] > 1) {
+    const double d2 = (inside(u, 1) - inside(u, 2)) * (length / std::abs(x1 - inside(x, 2)));
+    rise += 0.5 * (1 - s) * (d1 - d2);
+  }
+  return u0 - d1 * std::clamp(s * (rise / d1), 0.0, 1.0);
 }
 
-template <int Dim> void hold_outflow(Block<Dim>& b, const std::vector<double>& wanted, Ledger& ledger) {
+template <int Dim> std::vector<OutflowNode> outflow_nodes(const Block<Dim>& b) {
+  std::vector<OutflowNode> nodes;
+  for_each_outflow_node(b, [&](int axis, int r, int i) {
+    nodes.push_back({b.node_mass.row(r)[i], b.velocity[static_cast<std::size_t>(axis)].row(r)[i]});
+  });
+  return nodes;
+}
+
+template <int Dim> void hold_outflow(Block<Dim>& b, const std::vector<OutflowNode>& before, Ledger& ledger) {
   std::size_t n = 0;
   for_each_outflow_node(b, [&](int axis, int r, int i) {
     const auto a = static_cast<std::size_t>(axis);
-    const double want = wanted[n++], m = b.node_mass.row(r)[i];
+    const OutflowNode& old = before[n++];
+    const double m = b.node_mass.row(r)[i];
     double& u = b.velocity[a].row(r)[i];
     if (m > 0) {
-      ledger.momentum_out[a] += m * (u - want);
-      ledger.energy_out += 0.5 * m * (u - want) * (u + want);
-      u = want;
+      const double held = u + std::min(1.0, old.mass / m) * (old.velocity - u);
+      ledger.momentum_out[a] += m * (u - held);
+      ledger.energy_out += 0.5 * m * (u - held) * (u + held);
+      u = held;
     }
   });
 }
 
-template std::vector<double> outflow_velocities<2>(const Block<2>&);
-template std::vector<double> outflow_velocities<3>(const Block<3>&);
-template void hold_outflow<2>(Block<2>&, const std::vector<double>&, Ledger&);
-template void hold_outflow<3>(Block<3>&, const std::vector<double>&, Ledger&);
+template std::vector<OutflowNode> outflow_nodes<2>(const Block<2>&);
+template std::vector<OutflowNode> outflow_nodes<3>(const Block<3>&);
+template void hold_outflow<2>(Block<2>&, const std::vector<OutflowNode>&, Ledger&);
+template void hold_outflow<3>(Block<3>&, const std::vector<OutflowNode>&, Ledger&);
 template double outflow_velocity<2>(const Block<2>&, int, int, const std::array<int, 3>&, double);
 template double outflow_velocity<3>(const Block<3>&, int, int, const std::array<int, 3>&, double);
 

@@ -63,7 +63,7 @@ template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
 template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step) {
   remap::Mesh<Dim> mesh = view(b);
   const remap::Settings settings{.normal = scene.numerics.normal, .return_kinetic = scene.numerics.energy_return};
-  const std::vector<double> leaving = outflow_velocities(b);
+  const std::vector<OutflowNode> leaving = outflow_nodes(b);
   const remap::Report report = remap::remap(mesh, settings, *scene.pool, step / b.motion.remap_every);
   const Grid& g = b.grid;
   parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
