@@ -1,6 +1,7 @@
 // The Lagrangian step: predict, corner forces, accelerate, move, then work, closure, strength, state.
 #include "ale/closure.hpp"
 #include "ale/corner_force.hpp"
+#include "ale/outflow.hpp"
 #include "ale/phases.hpp"
 #include "ale/strength_update.hpp"
 
@@ -114,7 +115,7 @@ void bound_row(Block<Dim>& b, int j, int k, double dt, double* const (&force)[Di
     if (b.boundary.fixes_normal_velocity(axis, side)) {
       next = s.velocity;
     } else if (s.kind == BoundaryKind::outflow) {
-      next = u; // no net force from a medium that goes on unchanged
+      next = outflow_velocity(b, axis, side, {i, j, k}, dt);
     } else {
       return;
     }

@@ -1,4 +1,5 @@
 // Remap of a block: remap/ moves the conserved quantities, this brings the materials back to a state.
+#include "ale/outflow.hpp"
 #include "ale/phases.hpp"
 #include "ale/strength_update.hpp"
 #include "core/error.hpp"
@@ -42,6 +43,9 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
       m.fixed[a][s] = b.boundary.fixes_normal_velocity(axis, side);
       m.fixed_velocity[a][s] = b.boundary.at(axis, side).velocity;
       m.void_outside[a][s] = b.boundary.at(axis, side).kind == BoundaryKind::free;
+      if (const BoundarySide& from = b.boundary.at(axis, side); from.kind == BoundaryKind::inflow) {
+        m.inflow[a][s] = {from.inflow.material, from.inflow.density, from.inflow.specific_energy};
+      }
     }
   }
   return m;
@@ -62,6 +66,7 @@ template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
 template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step) {
   remap::Mesh<Dim> mesh = view(b);
   const remap::Settings settings{.normal = scene.numerics.normal, .return_kinetic = scene.numerics.energy_return};
+  const std::vector<OutflowNode> leaving = outflow_nodes(b);
   const remap::Report report = remap::remap(mesh, settings, *scene.pool, step / b.motion.remap_every);
   if (report.tangled[0] >= 0) {
     const auto& c = report.tangled;
@@ -80,6 +85,7 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   });
   compute_node_mass(b, *scene.pool);
   rest_massless_nodes(b);
+  hold_outflow(b, leaving, scene.ledger);
   if (b.any_strength()) {
     pull_back_to_yield(b, *scene.pool);
   }

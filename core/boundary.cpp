@@ -8,34 +8,34 @@ void exchange_cells(const Grid& g, RowField& f) {
 
 namespace {
 
-/// value of a ghost node at distance q outside: odd or even mirror, or zero gradient.
+/// Value of a ghost node outside, shift + sign x source: odd or even mirror, zero gradient, or prescribed.
 struct NodeGhost {
-  bool fixed;     // the side fixes the normal velocity: mirror
-  double sign;    // of the mirrored component
-  int source(int i, int n) const { return fixed ? mirrored_node(i, n) : (i < 0 ? 0 : n); }
+  bool mirror;
+  double sign, shift;
+  int source(int i, int n) const { return mirror ? mirrored_node(i, n) : (i < 0 ? 0 : n); }
 };
 
 NodeGhost ghost_rule(const BoundarySet& b, int axis, int side, int component) {
-  const bool fixed = b.fixes_normal_velocity(axis, side);
-  return {fixed, fixed && axis == component ? -1.0 : 1.0};
+  const BoundarySide& s = b.at(axis, side);
+  if (s.kind == BoundaryKind::inflow) {
+    return {true, 0.0, s.inflow.velocity[static_cast<std::size_t>(component)]};
+  }
+  const bool fixed = b.fixes_normal_velocity(axis, side), odd = fixed && axis == component;
+  return {fixed, odd ? -1.0 : 1.0, odd ? 2 * s.velocity : 0.0};
 }
 
 } // namespace
 
 void exchange_nodes(const Grid& g, const BoundarySet& boundary, int component, RowField& f) {
-  const auto side_value = [&](int axis, int side) {
-    return axis == component ? boundary.at(axis, side).velocity : 0.0;
-  };
   const int top = g.dim == 3 ? g.cells[2] : 0;
   for (int k = 0; k <= top; ++k) {
     for (int j = 0; j <= g.cells[1]; ++j) {
       double* a = f.row(g.node_row(j, k));
       for (int side = 0; side < 2; ++side) {
         const NodeGhost rule = ghost_rule(boundary, 0, side, component);
-        const double shift = rule.sign < 0 ? 2 * side_value(0, side) : 0.0;
         for (int q = 1; q <= g.ghost[0]; ++q) {
           const int i = side == 0 ? -q : g.cells[0] + q;
-          a[i] = shift + rule.sign * a[rule.source(i, g.cells[0])];
+          a[i] = rule.shift + rule.sign * a[rule.source(i, g.cells[0])];
         }
       }
     }
@@ -51,17 +51,16 @@ void exchange_nodes(const Grid& g, const BoundarySet& boundary, int component, R
     const int n = g.cells[static_cast<std::size_t>(axis)];
     for (int side = 0; side < 2; ++side) {
       const NodeGhost rule = ghost_rule(boundary, axis, side, component);
-      const double shift = rule.sign < 0 ? 2 * side_value(axis, side) : 0.0;
       for (int q = 1; q <= g.ghost[static_cast<std::size_t>(axis)]; ++q) {
         const int to = side == 0 ? -q : n + q;
         const int from = rule.source(to, n);
         if (axis == 1) {
           for (int k = 0; k <= top; ++k) {
-            copy(to, k, from, k, rule.sign, shift);
+            copy(to, k, from, k, rule.sign, rule.shift);
           }
         } else {
           for (int j = -g.ghost[1]; j <= g.cells[1] + g.ghost[1]; ++j) {
-            copy(j, to, j, from, rule.sign, shift);
+            copy(j, to, j, from, rule.sign, rule.shift);
           }
         }
       }

@@ -10,13 +10,26 @@ namespace ballast {
 
 /// symmetry: no normal velocity, mirrored ghosts (also the axis r = 0). wall: rigid, frictionless, may
 /// move along its normal. free: no traction beyond the reference pressure. outflow: as if the block went
-/// on unchanged. inflow: prescribed velocity and states (the block's initial edge cells).
+/// on unchanged. inflow: the ghosts hold a prescribed state, which remaps sweep in.
 enum class BoundaryKind { symmetry, free, wall, inflow, outflow };
+
+/// What stands beyond an inflow side: one material, free of deviator and history.
+struct InflowState {
+  int material = -1;                ///< of the block
+  double density = 0;               ///< kg/m3
+  double specific_energy = 0;       ///< J/kg
+  std::array<double, 3> velocity{}; ///< m/s
+};
 
 struct BoundarySide {
   BoundaryKind kind = BoundaryKind::symmetry;
   double velocity = 0; ///< along the axis: of a moving wall or an inflow, m/s
+  InflowState inflow{};
 };
+
+inline BoundarySide inflow_side(int axis, const InflowState& state) {
+  return {BoundaryKind::inflow, state.velocity[static_cast<std::size_t>(axis)], state};
+}
 
 struct BoundarySet {
   std::array<std::array<BoundarySide, 2>, 3> side; ///< [axis][low, high]
@@ -95,7 +108,7 @@ template <class Row> void mirror_cells(const Grid& g, const std::array<double, 3
 }
 
 /// Fills the ghosts of a node field; sign as in mirror_cells for sides that fix the normal velocity,
-/// zero gradient on the others.
+/// the prescribed velocity beyond an inflow, zero gradient on the others.
 void exchange_nodes(const Grid& g, const BoundarySet& boundary, int component, RowField& f);
 
 /// Fills the ghosts of a cell field that a mirror leaves unchanged.

@@ -200,13 +200,6 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
       }
     }
   }
-  for (std::size_t axis = 0; axis < Dim; ++axis) {
-    for (const Boundary& side : spec.boundaries[axis]) {
-      if (side.kind == BoundaryKind::inflow) {
-        throw Error("mesh: boundary type \"inflow\" is not available yet: its state would not be fed; use free, outflow, wall or symmetry");
-      }
-    }
-  }
   Scene<Dim> scene;
   scene.title = spec.title;
   scene.numerics = method_of(spec);
@@ -226,7 +219,11 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   for (std::size_t axis = 0; axis < Dim; ++axis) {
     for (std::size_t side = 0; side < 2; ++side) {
       const Boundary& from = spec.boundaries[axis][side];
-      b.boundary.side[axis][side] = {from.kind, from.kind == BoundaryKind::inflow ? from.velocity[axis] : from.wall_velocity};
+      b.boundary.side[axis][side] = {from.kind, from.wall_velocity};
+      if (from.kind == BoundaryKind::inflow) {
+        const int slot = slots.slot[static_cast<std::size_t>(from.material)];
+        b.boundary.side[axis][side] = inflow_side(static_cast<int>(axis), {slot, from.density, from.specific_energy, from.velocity});
+      }
     }
   }
   allocate_block(b, spec.mesh_lines);

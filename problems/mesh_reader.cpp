@@ -141,7 +141,22 @@ void read_wall(Context c, const Section& in, Boundary& side) {
   }
 }
 
-void read_inflow(Context c, const Section& in, Boundary& side) {
+/// What comes in must come in, and only remaps bring it.
+void check_inflow(Context c, const Section& in, std::size_t axis, std::size_t s, const Boundary& side) {
+  if (c.scene.motion.policy == MotionPolicy::lagrangian) {
+    c.deck.fail(*in.node("type"),
+                "nothing flows into a lagrangian mesh: only a remap brings material in",
+                "motion.policy = \"eulerian\", or a wall with this velocity");
+  } else if (!((s == 0 ? 1 : -1) * side.velocity[axis] > 0)) {
+    c.deck.fail(*in.node("velocity"),
+                fmt::format("{:g} m/s along {} does not point into the mesh",
+                            side.velocity[axis],
+                            axis_names(c.scene.geometry)[axis]),
+                s == 0 ? "a component above 0 at the lower side" : "a component below 0 at the upper side");
+  }
+}
+
+void read_inflow(Context c, const Section& in, std::size_t axis, std::size_t s, Boundary& side) {
   for (const char* key : {"material", "velocity"}) {
     if (in.self().find(key) == nullptr) {
       c.deck.fail({in.self().place, in.self().key + "." + key, "missing; an inflow needs it", {}});
@@ -150,6 +165,7 @@ void read_inflow(Context c, const Section& in, Boundary& side) {
   if (DeckNode* velocity = in.node("velocity")) {
     if (read_quantities(c.deck, *velocity, Dimension::velocity, {}, c.dim(), c.dim())) {
       side.velocity = point_of(numbers_of(*velocity));
+      check_inflow(c, in, axis, s, side);
     }
   }
   if (!in.has("material")) {
@@ -182,7 +198,7 @@ void refuse_keys(Context c,
   }
 }
 
-Boundary read_boundary(Context c, DeckNode& node) {
+Boundary read_boundary(Context c, DeckNode& node, std::size_t axis, std::size_t s) {
   Boundary side;
   if (node.is_text() && node.text == "absorbing") {
     c.deck.fail(node,
@@ -209,7 +225,7 @@ Boundary read_boundary(Context c, DeckNode& node) {
   }
   side.kind = static_cast<BoundaryKind>(in.choice("type"));
   if (side.kind == BoundaryKind::inflow) {
-    read_inflow(c, in, side);
+    read_inflow(c, in, axis, s, side);
     return side;
   }
   refuse_keys(c, in, {"material", "density", "pressure"}, in.text("type"));
@@ -242,8 +258,8 @@ void read_sides(Context c, const Section& in, std::size_t axis, bool symmetric) 
     add_text(table, "upper", "free");
   }
   auto& sides = c.scene.boundaries[axis];
-  sides[0] = read_boundary(c, *table.find("lower"));
-  sides[1] = read_boundary(c, *table.find("upper"));
+  sides[0] = read_boundary(c, *table.find("lower"), axis, 0);
+  sides[1] = read_boundary(c, *table.find("upper"), axis, 1);
   DeckNode& lower = *table.find("lower");
   if ((symmetric || starts_at_axis) && !lower.bad && sides[0].kind != BoundaryKind::symmetry) {
     c.deck.fail(lower,

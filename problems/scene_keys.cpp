@@ -293,8 +293,10 @@ const SectionSpec& mesh_axis() {
 const SectionSpec& boundary() {
   static const SectionSpec spec = {
       "Boundaries (`lower`, `upper`)",
-      "A text (`symmetry`, `free`, `wall`, `outflow`) or a table with these keys. `absorbing` is "
-      "not available yet.",
+      "A text (`symmetry`, `free`, `wall`, `outflow`) or a table with these keys. `outflow` lets "
+      "material out and waves that arrive head on; what flows back in is the edge cell's. `inflow` "
+      "brings a material in at a fixed state; it needs an eulerian mesh. `absorbing` is not "
+      "available yet.",
       {{.name = "type",
         .kind = choice,
         .doc = "`free` carries the ambient pressure; `wall` is rigid and frictionless",
@@ -302,7 +304,7 @@ const SectionSpec& boundary() {
         .choices = {"symmetry", "free", "wall", "inflow", "outflow"}},
        {.name = "velocity",
         .kind = special,
-        .doc = "wall: one velocity along the axis; inflow: one velocity an axis"},
+        .doc = "wall: one velocity along the axis; inflow: one velocity an axis, into the mesh"},
        {.name = "material", .kind = text, .doc = "inflow: what comes in"},
        {.name = "density",
         .kind = quantity,

@@ -22,11 +22,18 @@ struct Scratch {
   RowField cell_mass, node_loss, next_node_mass;
 };
 
+/// What stands beyond a side that feeds the block: one material, its history zero.
+struct Inflow {
+  int material = -1; ///< -1: the side feeds nothing
+  double density = 0, specific_energy = 0;
+};
+
 template <int Dim> struct Mesh {
   const Grid& grid;
   bool axisymmetric = false;
   std::array<std::array<bool, 2>, 3> open{};         ///< sides material may cross
   std::array<std::array<bool, 2>, 3> void_outside{}; ///< open sides behind which there is void
+  std::array<std::array<Inflow, 2>, 3> inflow{};     ///< sides behind which there is a prescribed state
   /// Sides that prescribe the velocity along their axis, and that velocity (m/s): their nodes keep it, what
   /// momentum the remap brings them goes to the wall.
   std::array<std::array<bool, 2>, 3> fixed{};

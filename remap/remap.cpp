@@ -127,13 +127,19 @@ template <int Dim> void follow_presence(Mesh<Dim>& m) {
   }
 }
 
-template <int Dim> void fill_void_outside(Mesh<Dim>& m, int axis, int side) {
+/// Ghost cells beyond a side hold one material; a void has no density. A material that comes in gets its tiles
+/// at the edge rows as well: there the sweep puts it.
+template <int Dim> void fill_outside(Mesh<Dim>& m, int axis, int side, const Inflow& state) {
   const Grid& g = m.grid;
   const auto a = static_cast<std::size_t>(axis);
   for (int k = -g.ghost[2]; k < g.cells[2] + g.ghost[2]; ++k) {
     for (int j = -g.ghost[1]; j < g.cells[1] + g.ghost[1]; ++j) {
       const int r = g.cell_row(j, k);
       const int index[3] = {0, j, k};
+      TileStore& what = *m.materials[static_cast<std::size_t>(state.material)];
+      if (axis > 0 && !m.is_void(state.material) && index[axis] == (side == 0 ? 0 : g.cells[a] - 1)) {
+        what.allocate(what.tile_of(r));
+      }
       int first = -g.ghost[0], last = g.cells[0] + g.ghost[0];
       if (axis == 0) {
         first = side == 0 ? -g.ghost[0] : g.cells[0];
@@ -144,16 +150,23 @@ template <int Dim> void fill_void_outside(Mesh<Dim>& m, int axis, int side) {
       for (int q = 0; q < m.material_count(); ++q) {
         TileStore& store = *m.materials[static_cast<std::size_t>(q)];
         if (!store.has_row(r)) {
-          if (!m.is_void(q)) {
+          if (q != state.material) {
             continue;
           }
           store.allocate(store.tile_of(r));
         }
         for (int field = 0; field < store.conserved(); ++field) {
-          std::fill(store.row(field, r) + first, store.row(field, r) + last, field == 0 && m.is_void(q) ? 1.0 : 0.0);
+          std::fill(store.row(field, r) + first, store.row(field, r) + last, field == 0 && q == state.material ? 1.0 : 0.0);
         }
       }
-      std::fill(m.owner_row(r) + first, m.owner_row(r) + last, static_cast<std::int8_t>(m.material_count() - 1));
+      if (!m.is_void(state.material)) {
+        const double* volume = m.volume.row(r);
+        for (int i = first; i < last; ++i) {
+          what.row(1, r)[i] = state.density * volume[i];
+          what.row(2, r)[i] = state.specific_energy;
+        }
+      }
+      std::fill(m.owner_row(r) + first, m.owner_row(r) + last, static_cast<std::int8_t>(state.material));
     }
   }
 }
@@ -213,8 +226,12 @@ void sweep_all(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long or
     exchange_owner(m, pool);
     for (int a = 0; a < Dim; ++a) {
       for (int side = 0; side < 2; ++side) {
-        if (m.has_void && m.void_outside[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)]) {
-          fill_void_outside(m, a, side);
+        const auto ax = static_cast<std::size_t>(a), s = static_cast<std::size_t>(side);
+        if (m.has_void && m.void_outside[ax][s]) {
+          fill_outside(m, a, side, {.material = m.material_count() - 1});
+        }
+        if (m.inflow[ax][s].material >= 0) {
+          fill_outside(m, a, side, m.inflow[ax][s]);
         }
       }
     }

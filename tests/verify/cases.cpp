@@ -13,6 +13,7 @@ std::vector<VerifyCase> verification_cases() {
   verify::add_rest_cases(cases);
   verify::add_piston_cases(cases);
   verify::add_frame_cases(cases);
+  verify::add_open_boundary_cases(cases);
   return cases;
 }
 

@@ -14,5 +14,6 @@ void add_blast_cases(std::vector<VerifyCase>& cases);
 void add_rest_cases(std::vector<VerifyCase>& cases);
 void add_piston_cases(std::vector<VerifyCase>& cases);
 void add_frame_cases(std::vector<VerifyCase>& cases);
+void add_open_boundary_cases(std::vector<VerifyCase>& cases);
 
 } // namespace ballast::verify

@@ -53,13 +53,21 @@ template <int Dim> TubeRun<Dim> make_tube(const Tube& t) {
                    : x[a] < t.interface ? t.left.velocity : t.right.velocity;
     for (int s = 0; t.ends && s < 2; ++s) {
       const BoundarySide& end = (*t.ends)[static_cast<std::size_t>(s)];
-      if (end.kind == BoundaryKind::wall && std::abs(x[a] - s * t.length) < tiny) {
+      if ((end.kind == BoundaryKind::wall || end.kind == BoundaryKind::inflow) && std::abs(x[a] - s * t.length) < tiny) {
         u[a] = end.velocity;
       }
     }
   });
   b.boundary.side[a] = t.ends.value_or(std::array<BoundarySide, 2>{
       BoundarySide{BoundaryKind::wall, t.left.velocity}, BoundarySide{BoundaryKind::wall, t.right.velocity}});
+  for (std::size_t s = 0; s < 2; ++s) {
+    if (b.boundary.side[a][s].kind == BoundaryKind::inflow) {
+      const TubeState& state = s == 0 ? t.left : t.right;
+      InflowState in{one ? 0 : static_cast<int>(s), state.density, state.specific_energy, {}};
+      in.velocity[a] = b.boundary.side[a][s].velocity;
+      b.boundary.side[a][s] = inflow_side(t.axis, in);
+    }
+  }
   run.scene.numerics = t.numerics;
   run.scene.pool = std::make_unique<ThreadPool>(t.threads);
   run.scene.blocks.push_back(std::move(b));

@@ -21,7 +21,8 @@ struct Tube {
   double interface = 0.5;   ///< where left becomes right
   bool interface_in_cell = false; ///< shift the mesh so that the interface halves a cell
   int axis = 0;
-  /// What closes the tube; by default walls that move with the left and the right state.
+  /// What closes the tube; by default walls that move with the left and the right state. An inflow brings in
+  /// the state of its end.
   std::optional<std::array<BoundarySide, 2>> ends;
   std::array<Material, 2> materials; ///< left, right; the same material twice when equal names
   TubeState left, right;
@@ -40,7 +41,7 @@ template <int Dim> struct TubeRun {
 };
 
 /// Builds the block, both states filled; velocities by node (the interface node gets the mean by mass, the
-/// nodes of a wall the wall's).
+/// nodes of a wall or an inflow its own).
 template <int Dim> TubeRun<Dim> make_tube(const Tube& tube);
 /// make_tube and run to the end.
 template <int Dim> TubeRun<Dim> run_tube(const Tube& tube);
