@@ -307,10 +307,62 @@ template <int Dim> void total_mass(const Mesh<Dim>& m, ThreadPool& pool, bool ne
 
 constexpr double largest_fall = 0.5; ///< of a cell's internal energy that a negative return may take
 
+/// A fall in internal energy (J) that a cell owes and its own materials cannot bear.
+struct Shortage {
+  int i, j, k;
+  double energy;
+};
+
+/// Energy (J) that the cell can give without any material falling below largest_fall; with `share` > 0 gives
+/// that share of it.
+template <int Dim> double give(Mesh<Dim>& m, int i, int j, int k, double share) {
+  const int r = m.grid.cell_row(j, k);
+  double sum = 0;
+  for (int mat = 0; mat < m.material_count(); ++mat) {
+    TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
+    if (m.is_void(mat) || !store.has_row(r)) {
+      continue;
+    }
+    const double mass = std::as_const(store).row(1, r)[i], least = std::max(0.0, largest_fall * std::as_const(store).row(2, r)[i]);
+    sum += mass * least;
+    if (share > 0 && mass > 0) {
+      store.row(2, r)[i] -= share * least;
+    }
+  }
+  return sum;
+}
+
+/// A cold cell beside a shock owes what the shocked cell next to it was given too much: the cell and its
+/// neighbours pay, by what they can give. Few cells, in order: the same bits for any threads.
+template <int Dim> void settle(Mesh<Dim>& m, const Shortage& s, SlabSums& sums) {
+  int cell[1 + 2 * Dim][3] = {{s.i, s.j, s.k}};
+  int count = 1;
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (const int step : {-1, 1}) {
+      int at[3] = {s.i, s.j, s.k};
+      at[axis] += step;
+      if (at[axis] >= 0 && at[axis] < m.grid.cells[static_cast<std::size_t>(axis)]) {
+        std::copy(at, at + 3, cell[count++]);
+      }
+    }
+  }
+  double able = 0;
+  for (int c = 0; c < count; ++c) {
+    able += give(m, cell[c][0], cell[c][1], cell[c][2], 0);
+  }
+  const double share = able > 0 ? std::min(1.0, s.energy / able) : 0.0;
+  for (int c = 0; c < count && share > 0; ++c) {
+    give(m, cell[c][0], cell[c][1], cell[c][2], share);
+  }
+  sums.returned -= share * able;
+  sums.floors += share * able < s.energy ? 1 : 0;
+}
+
 /// Gives every node's loss to its cells by corner mass, every cell's to its materials by mass.
 template <int Dim>
 void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, const RowField& loss, const RowField& node_mass, std::vector<SlabSums>& sums) {
   const Grid& g = m.grid;
+  std::vector<std::vector<Shortage>> shortages(static_cast<std::size_t>(g.slabs()));
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
     std::vector<double> per_mass(static_cast<std::size_t>(g.cells[0]));
     double* gains = per_mass.data();
@@ -351,8 +403,9 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, const RowField& loss, const 
             }
             double gain = per_mass[static_cast<std::size_t>(i)];
             if (gain < 0 && gain < -largest_fall * e[i]) {
-              gain = std::min(0.0, -largest_fall * e[i]);
-              ++slab.floors;
+              const double most = std::min(0.0, -largest_fall * e[i]);
+              shortages[static_cast<std::size_t>(s)].push_back({i, j, k, mass[i] * (most - gain)});
+              gain = most;
             }
             e[i] += gain;
             slab.returned += mass[i] * gain;
@@ -361,6 +414,11 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, const RowField& loss, const 
       }
     }
   });
+  for (const auto& slab : shortages) {
+    for (const Shortage& s : slab) {
+      settle(m, s, sums.front());
+    }
+  }
 }
 
 } // namespace
