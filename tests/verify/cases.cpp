@@ -13,6 +13,8 @@ std::vector<VerifyCase> verification_cases() {
   verify::add_rest_cases(cases);
   verify::add_piston_cases(cases);
   verify::add_frame_cases(cases);
+  verify::add_plate_cases(cases);
+  verify::add_gas_metal_cases(cases);
   return cases;
 }
 
