@@ -209,10 +209,44 @@ template <int Dim> void row_state(Block<Dim>& b, int r, RowRuns& runs, std::vect
   }
 }
 
+/// Whether one of the cell's nearest `reach` cells along an axis is all void: the cell is at a surface.
+template <int Dim> bool near_pure_void(const Block<Dim>& b, const std::array<int, 3>& cell, int reach) {
+  const Grid& g = b.grid;
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    for (int step = -reach; step <= reach; ++step) {
+      std::array<int, 3> at = cell;
+      at[axis] += step;
+      if (at[axis] >= 0 && at[axis] < g.cells[axis] && b.owner_row(g.cell_row(at[1], at[2]))[at[0]] == b.void_index()) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Void of the cell and of those face neighbours that are not at a surface, over which a remap spreads a void.
+template <int Dim> double spread_void(const Block<Dim>& b, const std::array<int, 3>& cell) {
+  const Grid& g = b.grid;
+  const TileStore& store = b.materials.back().store;
+  double sum = store.row(field::fraction, g.cell_row(cell[1], cell[2]))[cell[0]];
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    for (const int side : {-1, 1}) {
+      std::array<int, 3> at = cell;
+      at[axis] += side;
+      if (at[axis] >= 0 && at[axis] < g.cells[axis]) {
+        const double gap = store.row(field::fraction, g.cell_row(at[1], at[2]))[at[0]];
+        sum += gap > 0 && !near_pure_void(b, at, 2) ? gap : 0;
+      }
+    }
+  }
+  return sum;
+}
+
 /// A void that has no right to be: the cell's materials are compressed enough to fill it (a remap brings a
 /// void in beside them each step; kept, the cell would push back with the void's pressure however far it is
 /// squeezed), or it is a residue that reconstruction left inside a body, which would cut the body's tension for
 /// good: small, no pure void beside the cell, and closing it does not bring any material to its spall pressure.
+/// A void inside a body counts whole, with what a remap has spread of it: else a spall would heal piece by piece.
 template <int Dim> bool to_be_closed(const Block<Dim>& b, int i, int j, int k) {
   constexpr double largest_residue = 1e-2; // about the spall strain of metals, p_spall / K; the law is below
   const Grid& g = b.grid;
@@ -235,16 +269,11 @@ template <int Dim> bool to_be_closed(const Block<Dim>& b, int i, int j, int k) {
   if (expansion >= gap) {
     return true;
   }
-  const int index[3] = {i, j, k};
-  for (int axis = 0; axis < Dim; ++axis) {
-    const int stride = g.cell_row_stride(axis), step = axis == 0 ? 1 : 0;
-    const bool below = index[axis] > 0 && b.owner_row(r - stride)[i - step] == hole;
-    const bool above = index[axis] + 1 < g.cells[static_cast<std::size_t>(axis)] && b.owner_row(r + stride)[i + step] == hole;
-    if (below || above) {
-      return false;
-    }
+  if (gap > largest_residue || compliance == 0 || near_pure_void(b, {i, j, k}, 1)) {
+    return false;
   }
-  return gap <= largest_residue && compliance > 0 && -gap / compliance > weakest;
+  const double whole = std::isfinite(weakest) ? spread_void(b, {i, j, k}) : gap; // what cannot spall has nothing to keep open
+  return whole <= largest_residue && -whole / compliance > weakest;
 }
 
 template <int Dim> void close_void(Block<Dim>& b, int r, int i) {

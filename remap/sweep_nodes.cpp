@@ -20,8 +20,7 @@ namespace {
 
 struct SlabSums {
   std::array<double, 3> momentum_out = {0, 0, 0};
-  double kinetic_out = 0, loss = 0, returned = 0;
-  long floors = 0;
+  double kinetic_out = 0, loss = 0;
 };
 
 template <int Dim> class NodeSweep {
@@ -298,8 +297,6 @@ private:
   std::vector<double> flux_, low_mass_, high_mass_, between_, before_, after_, central_, edge_, lost_;
 };
 
-constexpr double largest_fall = 0.5; ///< of a cell's internal energy that a negative return may take
-
 } // namespace
 
 template <int Dim>
@@ -353,70 +350,7 @@ void sweep_nodes(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int a
   }
 }
 
-template <int Dim>
-void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
-  const Grid& g = m.grid;
-  const RowField &loss = m.scratch->node_loss, &node_mass = m.node_mass;
-  std::vector<SlabSums> sums(static_cast<std::size_t>(g.slabs()));
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
-    std::vector<double> per_mass(static_cast<std::size_t>(g.cells[0])), returned(per_mass.size());
-    double* gains = per_mass.data();
-    for (int s = begin; s < end; ++s) {
-      SlabSums& slab = sums[static_cast<std::size_t>(s)];
-      for (int q = 0; q < g.rows_per_slab(); ++q) {
-        const auto [j, k] = g.in_slab(s, q);
-        std::fill(per_mass.begin(), per_mass.end(), 0.0);
-        for (int corner = 0; corner < (1 << Dim); ++corner) {
-          const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2 & 1;
-          const int nr = g.node_row(j + dj, k + dk);
-          const double *l = loss.row(nr) + di, *mass = node_mass.row(nr) + di;
-          double share = dj ? 1 - m.low_share[1][static_cast<std::size_t>(j + g.ghost[1])] : m.low_share[1][static_cast<std::size_t>(j + g.ghost[1])];
-          if constexpr (Dim == 3) {
-            const double low = m.low_share[2][static_cast<std::size_t>(k + g.ghost[2])];
-            share *= dk ? 1 - low : low;
-          }
-          const double* low0 = m.low_share[0].data() + g.ghost[0];
-#pragma omp simd
-          for (int i = 0; i < g.cells[0]; ++i) {
-            const double w = share * (di ? 1 - low0[i] : low0[i]);
-            const bool some = mass[i] > 0;
-            const double gain = w * l[i] / (some ? mass[i] : 1.0);
-            gains[i] += some ? gain : 0.0;
-          }
-        }
-        const int r = g.cell_row(j, k);
-        for (int mat = 0; mat < m.material_count(); ++mat) {
-          TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
-          if (m.is_void(mat) || !store.has_row(r)) {
-            continue;
-          }
-          double *e = store.row(2, r), *given = returned.data();
-          const double* mass = std::as_const(store).row(1, r);
-          int cut = 0;
-#pragma omp simd reduction(+ : cut)
-          for (int i = 0; i < g.cells[0]; ++i) {
-            const double wanted = gains[i], least = -largest_fall * e[i], floor = least < 0 ? least : 0.0;
-            const bool some = mass[i] > 0, falls = (wanted < 0) & (wanted < least);
-            const double limited = falls ? floor : wanted, gain = some ? limited : 0.0;
-            cut += some & falls ? 1 : 0;
-            e[i] += gain;
-            given[i] = mass[i] * gain;
-          }
-          slab.floors += cut;
-          slab.returned += lane_sum(given, g.cells[0]);
-        }
-      }
-    }
-  });
-  for (const SlabSums& s : sums) {
-    report.kinetic_returned += s.returned;
-    report.energy_floors += s.floors;
-  }
-}
-
 template void sweep_nodes<2>(Mesh<2>&, const Settings&, ThreadPool&, int, bool, Report&);
 template void sweep_nodes<3>(Mesh<3>&, const Settings&, ThreadPool&, int, bool, Report&);
-template void return_kinetic<2>(Mesh<2>&, ThreadPool&, Report&);
-template void return_kinetic<3>(Mesh<3>&, ThreadPool&, Report&);
 
 } // namespace ballast::remap

@@ -93,7 +93,9 @@ void frames(VerifyReport& r) {
     const TubeRun<2> plain = run_seen({}, motion), mirror = run_seen(mirrored, motion);
     r.at_most(name + ", mirrored in x", motion == MotionPolicy::lagrangian ? 1e-11 : 1e-9, difference(plain, mirror, mirrored));
     conserves(r, name, plain);
+    conserves(r, name + " mirrored", mirror);
     const TubeRun<2> swap = run_seen(swapped, motion);
+    conserves(r, name + " exchanged", swap);
     if (motion == MotionPolicy::lagrangian) {
       r.at_most(name + ", x and y exchanged", 1e-11, difference(plain, swap, swapped));
       const TubeRun<2> drift = run_seen(drifting, motion);

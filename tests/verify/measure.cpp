@@ -10,12 +10,14 @@ const char* short_name(MotionPolicy motion) { return motion == MotionPolicy::lag
 
 template <int Dim> void conserves(VerifyReport& r, const std::string& name, const TubeRun<Dim>& run) {
   const Conservation c = conservation(run);
-  const double worst = std::max({c.energy, c.mass, c.momentum});
+  const double worst = c.worst();
   r.at_most(name + ", conservation", 1e-12, worst);
   if (!(worst <= 1e-12)) {
     r.note(name + ", energy", c.energy);
     r.note(name + ", mass", c.mass);
     r.note(name + ", momentum", c.momentum);
+    r.note(name + ", kinetic energy not returned", c.unreturned);
+    r.note(name + ", energy floors", static_cast<double>(run.scene.ledger.energy_floors));
   }
 }
 

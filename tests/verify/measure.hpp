@@ -13,8 +13,9 @@ namespace ballast::verify {
 
 const char* short_name(MotionPolicy motion); ///< Lag, Eul
 
-/// Gate: mass of each material, momentum and total energy of a run kept to 1e-12 of their scale, every
-/// ledger entry counted. The parts are listed when it fails.
+/// Gate: mass of each material, momentum (with the walls' impulse) and total energy of a run kept to 1e-12 of
+/// their scale, every ledger entry counted; with energy return on, also that the remap returned all it lost.
+/// The parts are listed when it fails.
 template <int Dim> void conserves(VerifyReport& r, const std::string& name, const TubeRun<Dim>& run);
 
 /// Gate: no energy floor, no sliver, no retried step.

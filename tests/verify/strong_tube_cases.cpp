@@ -49,12 +49,14 @@ void strong(VerifyReport& r, const exact::RiemannCase& c, double length, int coa
   r.set_cells(4L * coarse);
 }
 
-template <int Dim> std::vector<TubeCell> sod_along(int axis, MotionPolicy motion) {
+template <int Dim> std::vector<TubeCell> sod_along(VerifyReport& r, int axis, MotionPolicy motion) {
   const exact::RiemannCase& c = named("riemann_sod_t0.2");
   Tube tube = riemann_tube(c.left, c.right, c.interface_position, c.time, 100);
   tube.axis = axis;
   tube.motion = motion;
-  return profile(run_tube<Dim>(tube), axis);
+  const TubeRun<Dim> run = run_tube<Dim>(tube);
+  conserves(r, fmt::format("{} {}D along {}", short_name(motion), Dim, "xyz"[axis]), run);
+  return profile(run, axis);
 }
 
 double largest_difference(const std::vector<TubeCell>& a, const std::vector<TubeCell>& b) {
@@ -69,12 +71,12 @@ double largest_difference(const std::vector<TubeCell>& a, const std::vector<Tube
 /// Values are of order one and 200 steps each add some ulp: 1e-12 is round-off.
 void sod_axes(VerifyReport& r) {
   for (const MotionPolicy motion : both) {
-    const std::vector<TubeCell> x = sod_along<2>(0, motion);
+    const std::vector<TubeCell> x = sod_along<2>(r, 0, motion);
     const char* name = short_name(motion);
-    r.at_most(fmt::format("{} 2D along y - along x", name), 1e-12, largest_difference(x, sod_along<2>(1, motion)));
+    r.at_most(fmt::format("{} 2D along y - along x", name), 1e-12, largest_difference(x, sod_along<2>(r, 1, motion)));
     for (int axis = 0; axis < 3; ++axis) {
       r.at_most(fmt::format("{} 3D along {} - 2D along x", name, "xyz"[axis]), 1e-12,
-                largest_difference(x, sod_along<3>(axis, motion)));
+                largest_difference(x, sod_along<3>(r, axis, motion)));
     }
   }
   r.set_cells(100);

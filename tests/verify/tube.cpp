@@ -143,8 +143,12 @@ template <int Dim> Conservation conservation(const TubeRun<Dim>& run) {
   const Ledger& l = run.scene.ledger;
   const double e0 = run.start.internal() + run.start.kinetic_energy;
   const double e1 = run.end.internal() + run.end.kinetic_energy;
-  const double known = l.boundary_work + l.ambient_work + l.void_work - l.remap_kinetic_loss - l.energy_out - l.sliver_energy;
-  c.energy = std::abs(e1 - e0 - known) / (std::abs(e0) + std::abs(l.boundary_work));
+  const bool returned = run.scene.numerics.energy_return;
+  const double known = l.boundary_work + l.ambient_work + l.void_work - l.energy_out - l.sliver_energy -
+                       (returned ? 0 : l.remap_kinetic_loss);
+  const double energy = std::abs(e0) + std::abs(l.boundary_work);
+  c.energy = std::abs(e1 - e0 - known) / energy;
+  c.unreturned = returned ? std::abs(l.remap_kinetic_loss) / energy : 0;
   for (std::size_t m = 0; m < run.start.mass.size(); ++m) {
     if (run.start.mass[m] > 0) {
       c.mass = std::max(c.mass, std::abs(run.end.mass[m] + l.mass_out[m] - run.start.mass[m]) / run.start.mass[m]);

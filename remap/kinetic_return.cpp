@@ -1,0 +1,150 @@
+// Kinetic energy that the remap's averaging of velocities lost goes back to the cells as internal energy.
+#include "core/rows.hpp"
+#include "remap/internal.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace ballast::remap {
+
+namespace {
+
+struct ReturnSums {
+  double returned = 0;
+  long floors = 0;
+};
+
+constexpr double largest_fall = 0.5; ///< of a cell's internal energy that a negative return may take
+
+/// A fall in internal energy (J) that a cell owes and its own materials cannot bear.
+struct Shortage {
+  int i, j, k;
+  double energy;
+};
+
+/// Energy (J) that the cell can give without any material falling below largest_fall; with `share` > 0 gives
+/// that share of it.
+template <int Dim> double give(Mesh<Dim>& m, int i, int j, int k, double share) {
+  const int r = m.grid.cell_row(j, k);
+  double sum = 0;
+  for (int mat = 0; mat < m.material_count(); ++mat) {
+    TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
+    if (m.is_void(mat) || !store.has_row(r)) {
+      continue;
+    }
+    const double mass = std::as_const(store).row(1, r)[i], least = std::max(0.0, largest_fall * std::as_const(store).row(2, r)[i]);
+    sum += mass * least;
+    if (share > 0 && mass > 0) {
+      store.row(2, r)[i] -= share * least;
+    }
+  }
+  return sum;
+}
+
+/// A cold cell beside a shock owes what the shocked cell next to it was given too much: the cell and its
+/// neighbours pay, by what they can give. Few cells, in order: the same bits for any threads.
+template <int Dim> void settle(Mesh<Dim>& m, const Shortage& s, ReturnSums& sums) {
+  int cell[1 + 2 * Dim][3] = {{s.i, s.j, s.k}};
+  int count = 1;
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (const int step : {-1, 1}) {
+      int at[3] = {s.i, s.j, s.k};
+      at[axis] += step;
+      if (at[axis] >= 0 && at[axis] < m.grid.cells[static_cast<std::size_t>(axis)]) {
+        std::copy(at, at + 3, cell[count++]);
+      }
+    }
+  }
+  double able = 0;
+  for (int c = 0; c < count; ++c) {
+    able += give(m, cell[c][0], cell[c][1], cell[c][2], 0);
+  }
+  const double share = able > 0 ? std::min(1.0, s.energy / able) : 0.0;
+  for (int c = 0; c < count && share > 0; ++c) {
+    give(m, cell[c][0], cell[c][1], cell[c][2], share);
+  }
+  sums.returned -= share * able;
+  sums.floors += share * able < s.energy ? 1 : 0;
+}
+
+} // namespace
+
+template <int Dim>
+void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
+  const Grid& g = m.grid;
+  const RowField &loss = m.scratch->node_loss, &node_mass = m.node_mass;
+  std::vector<std::vector<Shortage>> shortages(static_cast<std::size_t>(g.slabs()));
+  std::vector<ReturnSums> sums(static_cast<std::size_t>(g.slabs()));
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    std::vector<double> per_mass(static_cast<std::size_t>(g.cells[0])), returned(per_mass.size());
+    double* gains = per_mass.data();
+    for (int s = begin; s < end; ++s) {
+      ReturnSums& slab = sums[static_cast<std::size_t>(s)];
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        std::fill(per_mass.begin(), per_mass.end(), 0.0);
+        for (int corner = 0; corner < (1 << Dim); ++corner) {
+          const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2 & 1;
+          const int nr = g.node_row(j + dj, k + dk);
+          const double *l = loss.row(nr) + di, *mass = node_mass.row(nr) + di;
+          double share = dj ? 1 - m.low_share[1][static_cast<std::size_t>(j + g.ghost[1])] : m.low_share[1][static_cast<std::size_t>(j + g.ghost[1])];
+          if constexpr (Dim == 3) {
+            const double low = m.low_share[2][static_cast<std::size_t>(k + g.ghost[2])];
+            share *= dk ? 1 - low : low;
+          }
+          const double* low0 = m.low_share[0].data() + g.ghost[0];
+#pragma omp simd
+          for (int i = 0; i < g.cells[0]; ++i) {
+            const double w = share * (di ? 1 - low0[i] : low0[i]);
+            const bool some = mass[i] > 0;
+            const double gain = w * l[i] / (some ? mass[i] : 1.0);
+            gains[i] += some ? gain : 0.0;
+          }
+        }
+        const int r = g.cell_row(j, k);
+        for (int mat = 0; mat < m.material_count(); ++mat) {
+          TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
+          if (m.is_void(mat) || !store.has_row(r)) {
+            continue;
+          }
+          double *e = store.row(2, r), *given = returned.data();
+          const double* mass = std::as_const(store).row(1, r);
+          int cut = 0;
+#pragma omp simd reduction(+ : cut)
+          for (int i = 0; i < g.cells[0]; ++i) {
+            cut += (mass[i] > 0) & (gains[i] < 0) & (gains[i] < -largest_fall * e[i]) ? 1 : 0;
+          }
+          for (int i = 0; i < g.cells[0] && cut > 0; ++i) {
+            if (mass[i] > 0 && gains[i] < 0 && gains[i] < -largest_fall * e[i]) {
+              const double most = std::min(0.0, -largest_fall * e[i]);
+              shortages[static_cast<std::size_t>(s)].push_back({i, j, k, mass[i] * (most - gains[i])});
+            }
+          }
+#pragma omp simd
+          for (int i = 0; i < g.cells[0]; ++i) {
+            const double wanted = gains[i], least = -largest_fall * e[i], floor = least < 0 ? least : 0.0;
+            const bool some = mass[i] > 0, falls = (wanted < 0) & (wanted < least);
+            const double limited = falls ? floor : wanted, gain = some ? limited : 0.0;
+            e[i] += gain;
+            given[i] = mass[i] * gain;
+          }
+          slab.returned += lane_sum(given, g.cells[0]);
+        }
+      }
+    }
+  });
+  for (const auto& slab : shortages) {
+    for (const Shortage& s : slab) {
+      settle(m, s, sums.front());
+    }
+  }
+  for (const ReturnSums& s : sums) {
+    report.kinetic_returned += s.returned;
+    report.energy_floors += s.floors;
+  }
+}
+
+template void return_kinetic<2>(Mesh<2>&, ThreadPool&, Report&);
+template void return_kinetic<3>(Mesh<3>&, ThreadPool&, Report&);
+
+} // namespace ballast::remap
