@@ -38,20 +38,6 @@ struct HalfStepHex {
   double volume, compression;
 };
 
-/// Four times the mid line of an axis: from the centre of its low to that of its high face.
-struct MidLine {
-  double x, y, z;
-};
-[[gnu::always_inline]] inline MidLine mid_line(const HexGeometry& h, const int (&high)[4], const int (&low)[4]) {
-  MidLine t{0, 0, 0};
-#pragma GCC unroll 4
-  for (int q = 0; q < 4; ++q) {
-    t.x += h.x[high[q]] - h.x[low[q]];
-    t.y += h.y[high[q]] - h.y[low[q]];
-    t.z += h.z[high[q]] - h.z[low[q]];
-  }
-  return t;
-}
 template <bool Strength>
 [[gnu::always_inline]] inline void
 half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex& h) {
@@ -74,36 +60,40 @@ half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex
   const double p_half = in.pressure[i] - in.modulus[i] * h.compression;
   double xx = -p_half, yy = -p_half, zz = -p_half, xy = 0, yz = 0, xz = 0;
 
-  const MidLine t0 = mid_line(g, {1, 2, 5, 6}, {0, 3, 4, 7});
-  const MidLine t1 = mid_line(g, {3, 2, 7, 6}, {0, 1, 4, 5});
-  const MidLine t2 = mid_line(g, {4, 5, 6, 7}, {0, 1, 2, 3});
-  const MidLine direction[3] = {t0, t1, t2};
+  const HexModes mx = hex_modes(g.x), my = hex_modes(g.y), mz = hex_modes(g.z);
+  const double along[3][3] = {{mx.xi, my.xi, mz.xi}, {mx.eta, my.eta, mz.eta}, {mx.zeta, my.zeta, mz.zeta}};
+  double edges = 0; // mean squared edge length x 48 (a cube root of the volume would not vectorise)
 #pragma GCC unroll 3
   for (int d = 0; d < 3; ++d) {
-    const MidLine& a = direction[d];
-    const double q = in.viscosity[d][i] / (a.x * a.x + a.y * a.y + a.z * a.z);
-    xx -= q * a.x * a.x;
-    yy -= q * a.y * a.y;
-    zz -= q * a.z * a.z;
-    xy -= q * a.x * a.y;
-    yz -= q * a.y * a.z;
-    xz -= q * a.x * a.z;
+    const double ax = along[d][0], ay = along[d][1], az = along[d][2], squared = ax * ax + ay * ay + az * az;
+    const double q = in.viscosity[d][i] / squared;
+    edges += squared;
+    xx -= q * ax * ax;
+    yy -= q * ay * ay;
+    zz -= q * az * az;
+    xy -= q * ax * ay;
+    yz -= q * ay * az;
+    xz -= q * ax * az;
+  }
+  // Velocity gradient times volume, du_a/dx_b.
+  double lxx = 0, lxy = 0, lxz = 0, lyx = 0, lyy = 0, lyz = 0, lzx = 0, lzy = 0, lzz = 0;
+#pragma GCC unroll 8
+  for (int p = 0; p < 8; ++p) {
+    lxx += ux[p] * h.sx[p];
+    lxy += ux[p] * h.sy[p];
+    lxz += ux[p] * h.sz[p];
+    lyx += uy[p] * h.sx[p];
+    lyy += uy[p] * h.sy[p];
+    lyz += uy[p] * h.sz[p];
+    lzx += uz[p] * h.sx[p];
+    lzy += uz[p] * h.sy[p];
+    lzz += uz[p] * h.sz[p];
   }
   if constexpr (Strength) {
-    double gxx = 0, gyy = 0, gzz = 0, gxy = 0, gyz = 0, gxz = 0;
-#pragma GCC unroll 8
-    for (int p = 0; p < 8; ++p) {
-      gxx += ux[p] * h.sx[p];
-      gyy += uy[p] * h.sy[p];
-      gzz += uz[p] * h.sz[p];
-      gxy += ux[p] * h.sy[p] + uy[p] * h.sx[p];
-      gyz += uy[p] * h.sz[p] + uz[p] * h.sy[p];
-      gxz += ux[p] * h.sz[p] + uz[p] * h.sx[p];
-    }
-    const double mean = (gxx + gyy + gzz) / 3, gm = in.shear[i] * c.dt / h.volume;
-    const double sxx = in.stress[0][i] + gm * (gxx - mean), syy = in.stress[1][i] + gm * (gyy - mean);
-    const double sxy = in.stress[2][i] + 0.5 * gm * gxy, syz = in.stress[3][i] + 0.5 * gm * gyz;
-    const double sxz = in.stress[4][i] + 0.5 * gm * gxz;
+    const double mean = (lxx + lyy + lzz) / 3, gm = in.shear[i] * c.dt / h.volume;
+    const double sxx = in.stress[0][i] + gm * (lxx - mean), syy = in.stress[1][i] + gm * (lyy - mean);
+    const double sxy = in.stress[2][i] + 0.5 * gm * (lxy + lyx), syz = in.stress[3][i] + 0.5 * gm * (lyz + lzy);
+    const double sxz = in.stress[4][i] + 0.5 * gm * (lxz + lzx);
     const double squared = 3 * (sxx * sxx + syy * syy + sxx * syy + sxy * sxy + syz * syz + sxz * sxz);
     const double flow = in.flow_stress[i];
     const double cut = squared > flow * flow ? flow / std::sqrt(squared) : 1.0;
@@ -114,46 +104,38 @@ half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex
     yz += cut * syz;
     xz += cut * sxz;
   }
-#pragma GCC unroll 8
-  for (int p = 0; p < 8; ++p) {
-    h.fx[p] = -(xx * h.sx[p] + xy * h.sy[p] + xz * h.sz[p]);
-    h.fy[p] = -(xy * h.sx[p] + yy * h.sy[p] + yz * h.sz[p]);
-    h.fz[p] = -(xz * h.sx[p] + yz * h.sy[p] + zz * h.sz[p]);
-  }
-  static constexpr double mode[4][8] = {{1, 1, -1, -1, -1, -1, 1, 1}, {1, -1, -1, 1, -1, 1, 1, -1},
-                                        {1, -1, 1, -1, 1, -1, 1, -1}, {-1, 1, -1, 1, 1, -1, 1, -1}};
+  // Hourglass: gamma_m = mode_m - S.g_m with g_m = sum mode_m x / V. Summed over the corners, the part with S is
+  // a (not symmetric) stress, and the modes' sums are butterflies.
+  const HexModes mu = hex_modes(ux), mv = hex_modes(uy), mw = hex_modes(uz);
   const double per_volume = 1 / h.volume;
-  // Mean edge length from the mid lines (a cube root would not vectorise).
-  const double edges = (t0.x * t0.x + t0.y * t0.y + t0.z * t0.z + t1.x * t1.x + t1.y * t1.y + t1.z * t1.z +
-                        t2.x * t2.x + t2.y * t2.y + t2.z * t2.z) *
-                       (1.0 / 48);
-  const double drag = c.hourglass * in.density[i] * in.wave_speed[i] * in.volume[i] / std::sqrt(edges);
+  const double drag = c.hourglass * in.density[i] * in.wave_speed[i] * in.volume[i] / std::sqrt(edges * (1.0 / 48));
+  double txx = xx, txy = xy, txz = xz, tyx = xy, tyy = yy, tyz = yz, tzx = xz, tzy = yz, tzz = zz;
+  double hx[4], hy[4], hz[4];
 #pragma GCC unroll 4
   for (int m = 0; m < 4; ++m) {
-    double gx = 0, gy = 0, gz = 0;
+    const double gx = mx.hourglass[m] * per_volume, gy = my.hourglass[m] * per_volume, gz = mz.hourglass[m] * per_volume;
+    hx[m] = drag * (mu.hourglass[m] - (lxx * gx + lxy * gy + lxz * gz));
+    hy[m] = drag * (mv.hourglass[m] - (lyx * gx + lyy * gy + lyz * gz));
+    hz[m] = drag * (mw.hourglass[m] - (lzx * gx + lzy * gy + lzz * gz));
+    txx -= hx[m] * gx;
+    txy -= hx[m] * gy;
+    txz -= hx[m] * gz;
+    tyx -= hy[m] * gx;
+    tyy -= hy[m] * gy;
+    tyz -= hy[m] * gz;
+    tzx -= hz[m] * gx;
+    tzy -= hz[m] * gy;
+    tzz -= hz[m] * gz;
+  }
+  double bx[8], by[8], bz[8];
+  hourglass_at_corners(hx, bx);
+  hourglass_at_corners(hy, by);
+  hourglass_at_corners(hz, bz);
 #pragma GCC unroll 8
-    for (int p = 0; p < 8; ++p) {
-      gx += mode[m][p] * g.x[p];
-      gy += mode[m][p] * g.y[p];
-      gz += mode[m][p] * g.z[p];
-    }
-    gx *= per_volume;
-    gy *= per_volume;
-    gz *= per_volume;
-    double gamma[8], hx = 0, hy = 0, hz = 0;
-#pragma GCC unroll 8
-    for (int p = 0; p < 8; ++p) {
-      gamma[p] = mode[m][p] - (h.sx[p] * gx + h.sy[p] * gy + h.sz[p] * gz);
-      hx += gamma[p] * ux[p];
-      hy += gamma[p] * uy[p];
-      hz += gamma[p] * uz[p];
-    }
-#pragma GCC unroll 8
-    for (int p = 0; p < 8; ++p) {
-      h.fx[p] -= drag * hx * gamma[p];
-      h.fy[p] -= drag * hy * gamma[p];
-      h.fz[p] -= drag * hz * gamma[p];
-    }
+  for (int p = 0; p < 8; ++p) {
+    h.fx[p] = -(txx * h.sx[p] + txy * h.sy[p] + txz * h.sz[p] + bx[p]);
+    h.fy[p] = -(tyx * h.sx[p] + tyy * h.sy[p] + tyz * h.sz[p] + by[p]);
+    h.fz[p] = -(tzx * h.sx[p] + tzy * h.sy[p] + tzz * h.sz[p] + bz[p]);
   }
 }
 

@@ -10,6 +10,10 @@ namespace ballast {
 /// sound speed squared is negative or a value is not finite.
 template <int Dim> void update_state(Block<Dim>& block, ThreadPool& pool);
 
+/// Owner and state of a whole row: the only way they come about, so that a restart recomputes the same bits. `runs`
+/// and `rho` (a value a cell) are scratch.
+template <int Dim> void row_state(Block<Dim>& block, int row, RowRuns& runs, std::vector<double>& rho);
+
 /// Spall: void opens where a material's pressure is below its spall pressure, so that the cell goes back
 /// to zero pressure. Returns the number of cells.
 template <int Dim> long open_voids(Block<Dim>& block, ThreadPool& pool);

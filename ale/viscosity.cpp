@@ -1,7 +1,7 @@
 // Artificial viscosity and the stable time step.
 //
-// Along each logical axis d the velocity jump across a cell is du = e L with the strain rate
-// e = t.grad(u).t along the mid line's direction t and L = V / |mid surface|. In compression
+// Along each logical axis d the velocity jump across a cell is du = e L with the strain rate e = t.du/t^2 of the
+// mid line t (du: between its ends) and L = V / |mid surface|. In compression
 //   q = rho |du'| (a |du'| + sqrt((a du')^2 + (b c)^2)),  du' = (1 - psi) du      (Kuropatenko)
 // with a = quadratic_q * 2/3 (the (gamma+1)/4 of a 5/3 gas; s/2 of a solid is 0.7) and b = linear_q. The
 // limiter psi = max(0, min((r_l + r_r)/2, 2 r_l, 2 r_r, 1)) compares e with the two neighbours along the
@@ -34,27 +34,17 @@ template <bool Axisymmetric> void rates_2d(Block<2>& b, int j) {
   const int r = g.cell_row(j, 0);
   double *e0 = b.strain_rate[0].row(r), *e1 = b.strain_rate[1].row(r);
   double *l0 = b.length[0].row(r), *l1 = b.length[1].row(r);
-  const double* volume = b.volume.row(r);
 #pragma omp simd
   for (int i = 0; i < g.cells[0]; ++i) {
     const QuadGeometry<Axisymmetric> q{{x0[i], x0[i + 1], x1[i + 1], x1[i]},
                                        {y0[i], y0[i + 1], y1[i + 1], y1[i]}};
-    const double u[4] = {u0[i], u0[i + 1], u1[i + 1], u1[i]}, v[4] = {v0[i], v0[i + 1], v1[i + 1], v1[i]};
-    double sx[4], sy[4], hoop[4], xx = 0, xy = 0, yx = 0, yy = 0;
-    q.gradient(sx, sy, hoop);
-#pragma GCC unroll 4
-    for (int p = 0; p < 4; ++p) {
-      const double ax = Axisymmetric ? sx[p] - hoop[p] : sx[p];
-      xx += u[p] * ax;
-      xy += u[p] * sy[p];
-      yx += v[p] * ax;
-      yy += v[p] * sy[p];
-    }
     const double t0x = 0.5 * (q.x[1] + q.x[2] - q.x[0] - q.x[3]), t0y = 0.5 * (q.y[1] + q.y[2] - q.y[0] - q.y[3]);
     const double t1x = 0.5 * (q.x[3] + q.x[2] - q.x[0] - q.x[1]), t1y = 0.5 * (q.y[3] + q.y[2] - q.y[0] - q.y[1]);
     const double a0 = t1x * t1x + t1y * t1y, a1 = t0x * t0x + t0y * t0y;
-    e0[i] = (t0x * t0x * xx + t0x * t0y * (xy + yx) + t0y * t0y * yy) / (a1 * volume[i]);
-    e1[i] = (t1x * t1x * xx + t1x * t1y * (xy + yx) + t1y * t1y * yy) / (a0 * volume[i]);
+    const double w0x = 0.5 * (u0[i + 1] + u1[i + 1] - u0[i] - u1[i]), w0y = 0.5 * (v0[i + 1] + v1[i + 1] - v0[i] - v1[i]);
+    const double w1x = 0.5 * (u1[i] + u1[i + 1] - u0[i] - u0[i + 1]), w1y = 0.5 * (v1[i] + v1[i + 1] - v0[i] - v0[i + 1]);
+    e0[i] = (w0x * t0x + w0y * t0y) / a1;
+    e1[i] = (w1x * t1x + w1y * t1y) / a0;
     const double area = q.area();
     l0[i] = area / std::sqrt(a0);
     l1[i] = area / std::sqrt(a1);
@@ -66,23 +56,7 @@ void rates(Block<2>& b, int j, int) { b.axisymmetric ? rates_2d<true>(b, j) : ra
 struct V3 {
   double x, y, z;
 };
-
-/// Four times a component of the mid line of an axis.
-template <int Axis> [[gnu::always_inline]] inline double mid(const double (&c)[8]) {
-  return Axis == 0   ? c[1] + c[2] + c[5] + c[6] - c[0] - c[3] - c[4] - c[7]
-         : Axis == 1 ? c[3] + c[2] + c[7] + c[6] - c[0] - c[1] - c[4] - c[5]
-                     : c[4] + c[5] + c[6] + c[7] - c[0] - c[1] - c[2] - c[3];
-}
-
-/// Velocity gradient times volume, off-diagonals summed in pairs.
-struct Rate {
-  double xx, yy, zz, xy, yz, xz;
-};
-[[gnu::always_inline]] inline double rate_along(const V3& t, const Rate& g) {
-  return (t.x * t.x * g.xx + t.y * t.y * g.yy + t.z * t.z * g.zz + t.x * t.y * g.xy + t.y * t.z * g.yz +
-          t.x * t.z * g.xz) /
-         (t.x * t.x + t.y * t.y + t.z * t.z);
-}
+[[gnu::always_inline]] inline double dot(const V3& a, const V3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 [[gnu::always_inline]] inline double area_of(const V3& a, const V3& c) {
   const double nx = a.y * c.z - a.z * c.y, ny = a.z * c.x - a.x * c.z, nz = a.x * c.y - a.y * c.x;
   return std::sqrt(nx * nx + ny * ny + nz * nz);
@@ -95,34 +69,22 @@ struct HexRates {
 };
 [[gnu::always_inline]] inline HexRates hex_rates(const ForceRows<3>& in, int i) {
   static constexpr int line_of[8] = {0, 0, 1, 1, 2, 2, 3, 3}, step_of[8] = {0, 1, 1, 0, 0, 1, 1, 0};
-  HexGeometry h;
-  double ux[8], uy[8], uz[8];
+  double x[3][8], u[3][8];
 #pragma GCC unroll 8
   for (int p = 0; p < 8; ++p) {
     const int l = line_of[p], s = i + step_of[p];
-    h.x[p] = in.x[0][l][s];
-    h.y[p] = in.x[1][l][s];
-    h.z[p] = in.x[2][l][s];
-    ux[p] = in.u[0][l][s];
-    uy[p] = in.u[1][l][s];
-    uz[p] = in.u[2][l][s];
+#pragma GCC unroll 3
+    for (int d = 0; d < 3; ++d) {
+      x[d][p] = in.x[d][l][s];
+      u[d][p] = in.u[d][l][s];
+    }
   }
-  double sx[8], sy[8], sz[8];
-  Rate g{0, 0, 0, 0, 0, 0};
-  h.gradient(sx, sy, sz);
-#pragma GCC unroll 8
-  for (int p = 0; p < 8; ++p) {
-    g.xx += ux[p] * sx[p];
-    g.yy += uy[p] * sy[p];
-    g.zz += uz[p] * sz[p];
-    g.xy += ux[p] * sy[p] + uy[p] * sx[p];
-    g.yz += uy[p] * sz[p] + uz[p] * sy[p];
-    g.xz += ux[p] * sz[p] + uz[p] * sx[p];
-  }
-  const V3 t0{mid<0>(h.x), mid<0>(h.y), mid<0>(h.z)}, t1{mid<1>(h.x), mid<1>(h.y), mid<1>(h.z)},
-      t2{mid<2>(h.x), mid<2>(h.y), mid<2>(h.z)};
+  const HexModes x0 = hex_modes(x[0]), x1 = hex_modes(x[1]), x2 = hex_modes(x[2]);
+  const HexModes u0 = hex_modes(u[0]), u1 = hex_modes(u[1]), u2 = hex_modes(u[2]);
+  const V3 t0{x0.xi, x1.xi, x2.xi}, t1{x0.eta, x1.eta, x2.eta}, t2{x0.zeta, x1.zeta, x2.zeta};
+  const V3 v0{u0.xi, u1.xi, u2.xi}, v1{u0.eta, u1.eta, u2.eta}, v2{u0.zeta, u1.zeta, u2.zeta};
   const double v = in.volume[i];
-  return {{rate_along(t0, g) / v, rate_along(t1, g) / v, rate_along(t2, g) / v},
+  return {{dot(v0, t0) / dot(t0, t0), dot(v1, t1) / dot(t1, t1), dot(v2, t2) / dot(t2, t2)},
           {16 * v / area_of(t1, t2), 16 * v / area_of(t2, t0), 16 * v / area_of(t0, t1)}};
 }
 

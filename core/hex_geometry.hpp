@@ -52,6 +52,31 @@ template <bool Axisymmetric> struct QuadGeometry {
   }
 };
 
+/// Sums of a corner quantity with the signs of the trilinear modes, by butterflies: along the mid lines (four times
+/// the difference from the low to the high face of an axis), and the hourglass modes eta zeta, zeta xi, xi eta,
+/// xi eta zeta.
+struct HexModes {
+  double xi, eta, zeta, hourglass[4];
+};
+[[gnu::always_inline]] inline HexModes hex_modes(const double (&c)[8]) {
+  const double s0 = c[0] + c[1], s1 = c[3] + c[2], s2 = c[4] + c[5], s3 = c[7] + c[6];
+  const double d0 = c[1] - c[0], d1 = c[2] - c[3], d2 = c[5] - c[4], d3 = c[6] - c[7];
+  const double se0 = s1 - s0, se1 = s3 - s2, ds0 = d0 + d1, ds1 = d2 + d3, de0 = d1 - d0, de1 = d3 - d2;
+  return {ds0 + ds1, se0 + se1, (s2 + s3) - (s0 + s1), {se1 - se0, ds1 - ds0, de0 + de1, de1 - de0}};
+}
+/// Sum of the hourglass modes with weights w at every corner.
+[[gnu::always_inline]] inline void hourglass_at_corners(const double (&w)[4], double (&out)[8]) {
+  const double ab = w[0] + w[1], ba = w[0] - w[1], cd = w[2] + w[3], dc = w[2] - w[3];
+  out[0] = ab + dc;
+  out[1] = ba - dc;
+  out[2] = dc - ab;
+  out[3] = -ba - dc;
+  out[4] = cd - ab;
+  out[5] = -ba - cd;
+  out[6] = ab + cd;
+  out[7] = ba - cd;
+}
+
 struct HexGeometry {
   double x[8], y[8], z[8];
 
