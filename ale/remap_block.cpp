@@ -35,6 +35,7 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
                      }};
   for (MaterialSlot& slot : b.materials) {
     m.materials.push_back(&slot.store);
+    m.free_energy.push_back(std::holds_alternative<MieGruneisen>(slot.material.eos) ? 1 : 0);
   }
   for (int axis = 0; axis < Dim; ++axis) {
     for (int side = 0; side < 2; ++side) {

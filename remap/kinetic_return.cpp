@@ -109,9 +109,10 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
           }
           double *e = store.row(2, r), *given = returned.data();
           const double* mass = std::as_const(store).row(1, r);
+          const bool free = m.energy_may_fall(mat);
           int cut = 0;
 #pragma omp simd reduction(+ : cut)
-          for (int i = 0; i < g.cells[0]; ++i) {
+          for (int i = 0; i < (free ? 0 : g.cells[0]); ++i) {
             cut += (mass[i] > 0) & (gains[i] < 0) & (gains[i] < -largest_fall * e[i]) ? 1 : 0;
           }
           for (int i = 0; i < g.cells[0] && cut > 0; ++i) {
@@ -124,7 +125,7 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
           for (int i = 0; i < g.cells[0]; ++i) {
             const double wanted = gains[i], least = -largest_fall * e[i], floor = least < 0 ? least : 0.0;
             const bool some = mass[i] > 0, falls = (wanted < 0) & (wanted < least);
-            const double limited = falls ? floor : wanted, gain = some ? limited : 0.0;
+            const double limited = falls ? floor : wanted, bounded = free ? wanted : limited, gain = some ? bounded : 0.0;
             e[i] += gain;
             given[i] = mass[i] * gain;
           }

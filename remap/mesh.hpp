@@ -51,6 +51,9 @@ template <int Dim> struct Mesh {
   std::array<RowField, Dim>& mass_flux; ///< scratch, faces: mass through the face along +axis, kg
   std::vector<TileStore*> materials;    ///< void last, if any
   bool has_void = false;
+  /// By material: may its specific energy fall below zero? Of a condensed one it may (its zero is a choice), of a gas
+  /// not. Empty: none may.
+  std::vector<char> free_energy = {};
   std::vector<std::int8_t>& owner;                       ///< the only material of a cell, or -1
   Scratch* scratch = nullptr; ///< optional: without it every sweep allocates its own
   std::function<void(RowField&, int)> exchange_velocity; ///< fills ghosts of a component
@@ -62,6 +65,7 @@ template <int Dim> struct Mesh {
     return owner.data() + static_cast<std::ptrdiff_t>(r) * grid.cell_pitch() + grid.ghost[0];
   }
   int material_count() const { return static_cast<int>(materials.size()); }
+  bool energy_may_fall(int m) const { return !free_energy.empty() && free_energy[static_cast<std::size_t>(m)] != 0; }
   bool is_void(int m) const { return has_void && m == material_count() - 1; }
 };
 

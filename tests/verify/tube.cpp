@@ -146,7 +146,7 @@ template <int Dim> Conservation conservation(const TubeRun<Dim>& run) {
   const bool returned = run.scene.numerics.energy_return;
   const double known = l.boundary_work + l.ambient_work + l.void_work - l.energy_out - l.sliver_energy -
                        (returned ? 0 : l.remap_kinetic_loss);
-  const double energy = std::abs(e0) + std::abs(l.boundary_work);
+  const double energy = std::max(std::abs(e0), std::abs(e1)) + std::abs(l.boundary_work) + std::abs(l.energy_out);
   c.energy = std::abs(e1 - e0 - known) / energy;
   c.unreturned = returned ? std::abs(l.remap_kinetic_loss) / energy : 0;
   for (std::size_t m = 0; m < run.start.mass.size(); ++m) {
