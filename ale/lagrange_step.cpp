@@ -1,9 +1,7 @@
 // The Lagrangian step: predict, corner forces, accelerate, move, then work, closure, strength, state.
-#include "ale/closure.hpp"
-#include "ale/corner_force.hpp"
+#include "ale/lagrange_parts.hpp"
 #include "ale/outflow.hpp"
 #include "ale/phases.hpp"
-#include "ale/strength_update.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +9,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/rows.hpp"
 
 namespace ballast {
 
@@ -137,11 +134,6 @@ void bound_row(Block<Dim>& b, int j, int k, double dt, double* const (&force)[Di
   set(g.cells[0], 0, 1);
 }
 
-/// The viscous hourglass term damps a 3D mode by 64 x coefficient x CFL a step: explicit, so below 2.
-ForceCoefficients force_coefficients(const Numerics& n, double dt) {
-  return {dt, std::min(n.hourglass, 0.03 / n.cfl)};
-}
-
 template <int Dim>
 BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
   const Grid& g = b.grid;
@@ -218,205 +210,6 @@ template <int Dim> WorstCell move_cells(Scene<Dim>& scene, Block<Dim>& b) {
     least = !(w.ratio >= least.ratio) && !std::isnan(least.ratio) ? w : least; // the first NaN wins
   }
   return least;
-}
-
-/// Scratch rows of the work pass.
-template <int Dim> struct WorkBuffer {
-  static constexpr int gradients = WorkRows<Dim>::gradient_components;
-  std::vector<double> data;
-  WorkRows<Dim> rows{};
-  RowRuns runs;
-
-  WorkBuffer(int count, bool strength) : data(static_cast<std::size_t>((3 + gradients) * count)) {
-    double* p = data.data();
-    rows.swept_volume = p;
-    rows.compression = p + count;
-    rows.work = p + 2 * count;
-    for (int q = 0; q < gradients; ++q) {
-      rows.gradient[q] = strength ? p + (3 + q) * count : nullptr;
-    }
-  }
-};
-
-template <int Dim>
-StressRows<Dim> stress_rows(MaterialSlot& slot, int r, int at, const WorkRows<Dim>* w) {
-  StressRows<Dim> s{};
-  for (int a = 0; a < stress_components<Dim>; ++a) {
-    s.stress[a] = slot.store.row(field::stress + a, r) + at;
-  }
-  s.plastic_strain = slot.store.row(field::plastic_strain<Dim>, r) + at;
-  s.flow_stress = slot.store.row(slot.flow_stress_field(), r) + at;
-  s.energy = slot.store.row(field::energy, r) + at;
-  for (int q = 0; w && q < WorkRows<Dim>::gradient_components; ++q) {
-    s.gradient[q] = w->gradient[q] + at;
-  }
-  return s;
-}
-
-/// s : grad(u) dt of one cell, 1/volume.
-double stress_power(const MaterialSlot& slot, int r, int i, const WorkRows<2>& w) {
-  const auto s = [&](int a) { return slot.store.row(field::stress + a, r)[i]; };
-  return s(0) * w.gradient[0][i] + s(1) * w.gradient[3][i] + s(2) * (w.gradient[1][i] + w.gradient[2][i]) -
-         (s(0) + s(1)) * w.gradient[4][i];
-}
-double stress_power(const MaterialSlot& slot, int r, int i, const WorkRows<3>& w) {
-  const auto s = [&](int a) { return slot.store.row(field::stress + a, r)[i]; };
-  return s(0) * w.gradient[0][i] + s(1) * w.gradient[4][i] - (s(0) + s(1)) * w.gradient[8][i] +
-         s(2) * (w.gradient[1][i] + w.gradient[3][i]) + s(3) * (w.gradient[5][i] + w.gradient[7][i]) +
-         s(4) * (w.gradient[2][i] + w.gradient[6][i]);
-}
-
-template <int Dim> MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume) {
-  MixedCell cell;
-  for (std::size_t m = 0; m < b.materials.size() && cell.count < max_materials_in_cell; ++m) {
-    const MaterialSlot& slot = b.materials[m];
-    const double f = slot.store.row(field::fraction, r)[i];
-    if (f <= 0) {
-      continue;
-    }
-    MixedCell::Part& p = cell.part[cell.count++];
-    p.material = static_cast<int>(m);
-    p.is_void = slot.is_void;
-    p.volume = f * volume;
-    if (slot.is_void) {
-      p.pressure = -b.reference_pressure;
-      continue;
-    }
-    p.mass = slot.store.row(field::mass, r)[i];
-    p.energy = slot.store.row(field::energy, r)[i];
-    p.pressure = slot.store.row(slot.pressure_field(), r)[i];
-    p.modulus = slot.store.row(slot.modulus_field(), r)[i];
-    p.sound_speed = std::sqrt(p.modulus * p.volume / p.mass);
-  }
-  return cell;
-}
-
-/// Energy and volumes of one mixed cell. Returns the energy that void took or gave: what the materials
-/// received less what the forces gave, with the reference pressure's part of the void's volume change.
-template <int Dim>
-double advance_mixed(Scene<Dim>& scene, Block<Dim>& b, int r, int i, double dt, const WorkRows<Dim>& w) {
-  const double volume = b.volume.row(r)[i], next_volume = b.next_volume.row(r)[i];
-  MixedCell cell = load_mixed(b, r, i, volume);
-  const CellMotion motion{volume, next_volume - volume, w.swept_volume[i], w.compression[i],
-                          b.pressure.row(r)[i], b.modulus.row(r)[i], dt};
-  share_volume_change(scene.numerics.closure, motion, cell);
-  // Pressure work is shared by the closure, deviator work by each material's own stress, the rest
-  // (viscosity, hourglass) by mass; the last share is what is left, so the sum is exact.
-  const double p_half = motion.pressure - motion.modulus * motion.compression;
-  double rest = w.work[i] + p_half * motion.swept_volume;
-  double deviator[max_materials_in_cell] = {}, mass = 0, pressure_work = 0;
-  for (int k = 0; k < cell.count; ++k) {
-    const MixedCell::Part& p = cell.part[k];
-    const MaterialSlot& slot = b.materials[static_cast<std::size_t>(p.material)];
-    if (slot.strength) {
-      deviator[k] = p.volume * (1 + motion.compression) * stress_power(slot, r, i, w);
-      rest -= deviator[k];
-    }
-    mass += p.mass;
-    pressure_work += p.work;
-  }
-  double taken = 0, sum = 0, void_change = 0;
-  int largest = 0;
-  for (int k = 0; k < cell.count; ++k) {
-    MixedCell::Part& p = cell.part[k];
-    MaterialSlot& slot = b.materials[static_cast<std::size_t>(p.material)];
-    const double part_volume = p.volume + p.volume_change;
-    slot.store.row(field::fraction, r)[i] = std::max(0.0, part_volume / next_volume);
-    sum += slot.store.row(field::fraction, r)[i];
-    largest = part_volume > cell.part[largest].volume + cell.part[largest].volume_change ? k : largest;
-    if (p.is_void) {
-      void_change = p.volume_change;
-      continue;
-    }
-    const double work = p.work + deviator[k] + rest * (p.mass / mass);
-    slot.store.row(field::energy, r)[i] += (work - b.reference_pressure * p.volume_change) / p.mass;
-    taken += work;
-  }
-  double& most = b.materials[static_cast<std::size_t>(cell.part[largest].material)].store.row(field::fraction, r)[i];
-  most += 1 - sum;
-  return taken - w.work[i] + b.reference_pressure * void_change;
-}
-
-template <int Dim>
-void advance_pure(Block<Dim>& b, int r, const RowRuns::Run& run, double dt, const WorkRows<Dim>& w, int& failed) {
-  MaterialSlot& slot = b.materials[static_cast<std::size_t>(run.material)];
-  if (slot.is_void) {
-    return;
-  }
-  const double *m = slot.store.row(field::mass, r), *v = b.volume.row(r), *next = b.next_volume.row(r);
-  double* e = slot.store.row(field::energy, r);
-  const double* work = w.work;
-  const double p_ref = b.reference_pressure;
-#pragma omp simd
-  for (int i = run.begin; i < run.end; ++i) {
-    e[i] += (work[i] - p_ref * (next[i] - v[i])) / m[i];
-  }
-  if (slot.strength) {
-    failed += update_stress<Dim>(slot.material, dt, run.end - run.begin, stress_rows<Dim>(slot, r, run.begin, &w));
-  }
-}
-
-template <int Dim> struct StepSums {
-  double void_work = 0, volume_change = 0;
-  int failed = 0;
-  std::array<int, 3> failed_cell = {-1, -1, -1}; ///< the last of them
-};
-
-template <int Dim>
-void advance_row(Scene<Dim>& scene, Block<Dim>& b, int j, int k, double dt, WorkBuffer<Dim>& buffer, StepSums<Dim>& sums) {
-  const Grid& g = b.grid;
-  const int r = g.cell_row(j, k);
-  const double* next[Dim][ForceRows<Dim>::lines];
-  for (std::size_t d = 0; d < Dim; ++d) {
-    for (int l = 0; l < ForceRows<Dim>::lines; ++l) {
-      next[d][l] = b.next_velocity[d].row(g.node_row(j + (l & 1), k + (l >> 1)));
-    }
-  }
-  corner_work<Dim>(b, ForceRows<Dim>(b, j, k), next, force_coefficients(scene.numerics, dt), g.cells[0], buffer.rows);
-  buffer.runs.scan(b.owner_row(r), g.cells[0]);
-  for (const RowRuns::Run& run : buffer.runs.pure) {
-    if (b.materials[static_cast<std::size_t>(run.material)].is_void) {
-      for (int i = run.begin; i < run.end; ++i) {
-        sums.void_work += b.reference_pressure * (b.next_volume.row(r)[i] - b.volume.row(r)[i]) - buffer.rows.work[i];
-      }
-    }
-    const int before = sums.failed;
-    advance_pure(b, r, run, dt, buffer.rows, sums.failed);
-    sums.failed_cell = sums.failed > before ? std::array<int, 3>{run.begin, j, k} : sums.failed_cell;
-  }
-  for (const int i : buffer.runs.mixed) {
-    sums.void_work += advance_mixed(scene, b, r, i, dt, buffer.rows);
-    for (MaterialSlot& slot : b.materials) {
-      if (slot.strength && std::as_const(slot.store).row(field::fraction, r)[i] > 0) {
-        const int failed = update_stress<Dim>(slot.material, dt, 1, stress_rows<Dim>(slot, r, i, &buffer.rows));
-        sums.failed += failed;
-        sums.failed_cell = failed > 0 ? std::array<int, 3>{i, j, k} : sums.failed_cell;
-      }
-    }
-  }
-  sums.volume_change += lane_sum(b.next_volume.row(r), g.cells[0]) - lane_sum(b.volume.row(r), g.cells[0]);
-}
-
-template <int Dim> StepSums<Dim> work_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
-  const Grid& g = b.grid;
-  std::vector<StepSums<Dim>> sums(static_cast<std::size_t>(g.slabs()));
-  parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
-    WorkBuffer<Dim> buffer(g.cells[0], b.any_strength());
-    for (int s = begin; s < end; ++s) {
-      for (int q = 0; q < g.rows_per_slab(); ++q) {
-        const auto [j, k] = g.in_slab(s, q);
-        advance_row(scene, b, j, k, dt, buffer, sums[static_cast<std::size_t>(s)]);
-      }
-    }
-  });
-  StepSums<Dim> total;
-  for (const auto& s : sums) {
-    total.void_work += s.void_work;
-    total.volume_change += s.volume_change;
-    total.failed_cell = s.failed > 0 ? s.failed_cell : total.failed_cell;
-    total.failed += s.failed;
-  }
-  return total;
 }
 
 constexpr double smallest_volume_ratio = 0.2; // of one step; below it the step is retried smaller

@@ -8,8 +8,8 @@
 #include "core/rows.hpp"
 #include "remap/internal.hpp"
 
+#include "remap/face_row.hpp"
 #include "remap/flux_rows.hpp"
-#include "remap/reconstruct.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,126 +21,6 @@ namespace ballast::remap {
 namespace {
 
 constexpr double sliver_fraction = 1e-14; ///< below it a material is round-off and is dropped, with a count
-constexpr double flush_fraction = 1e-6;   ///< a donor left with less than this gives it all
-
-/// Fluxes through one row of faces, per material and conserved field; zero where a material has none.
-class FaceRow {
-public:
-  template <int Dim> FaceRow(const Mesh<Dim>& m, int faces) : faces_(faces) {
-    int fields = 0;
-    for (const TileStore* s : m.materials) {
-      first_.push_back(fields);
-      fields += s->conserved();
-    }
-    data_.assign(static_cast<std::size_t>(fields * faces), 0.0);
-    present_.assign(m.materials.size(), false);
-  }
-  double* flux(int material, int field) {
-    return data_.data() + (first_[static_cast<std::size_t>(material)] + field) * faces_;
-  }
-  bool present(int material) const { return present_[static_cast<std::size_t>(material)]; }
-  void set_present(int material, bool p) { present_[static_cast<std::size_t>(material)] = p; }
-  int faces() const { return faces_; }
-  /// The only material of the cells on both sides of all faces, or -1.
-  int sole = -1;
-
-private:
-  int faces_;
-  std::vector<int> first_;
-  std::vector<char> present_;
-  std::vector<double> data_;
-};
-
-/// Volumes that a mixed donor gives through one face, into the materials' flux[0] at `face`.
-template <int Dim>
-void mixed_donor(const Mesh<Dim>& m, const Settings& s, int axis, int r, int i, double t, bool both_faces_give, FaceRow& out, int face) {
-  const Reconstruction<Dim> cell = reconstruct_cell<Dim>(m.grid, m.materials, s.normal, r, i);
-  const int count = cell.count;
-  const int* present = cell.present;
-  const double volume = m.volume.row(r)[i], part = std::min(1.0, std::abs(t) / volume);
-  double given[most_materials], held[most_materials], sum = 0;
-  slab_volumes<Dim>(cell.planes, count - 1, axis, t > 0 ? 1 - part : 0.0, t > 0 ? 1.0 : part, given);
-  int largest = 0;
-  for (int q = 0; q < count; ++q) {
-    held[q] = m.materials[static_cast<std::size_t>(present[q])]->row(0, r)[i] * volume;
-    given[q] = std::min(given[q] * volume, held[q]);
-    if (!both_faces_give && held[q] - given[q] < flush_fraction * volume && given[q] > 0) {
-      given[q] = held[q]; // no sliver stays behind
-    }
-    sum += given[q];
-    largest = held[q] - given[q] > held[largest] - given[largest] ? q : largest;
-  }
-  // The rest of the face's total comes from, or goes back to, whoever has most left.
-  double rest = std::abs(t) - sum;
-  for (int pass = 0; pass < count && rest != 0; ++pass) {
-    const double take = std::clamp(rest, -given[largest], held[largest] - given[largest]);
-    given[largest] += take;
-    rest -= take;
-    for (int q = 0; q < count; ++q) {
-      const auto room = [&](int c) { return rest > 0 ? held[c] - given[c] : given[c]; };
-      largest = room(q) > room(largest) ? q : largest;
-    }
-  }
-  for (int q = 0; q < count; ++q) {
-    if (given[q] > 0) {
-      if (!out.present(present[q])) {
-        out.set_present(present[q], true);
-        double* f = out.flux(present[q], 0);
-        std::fill(f, f + out.faces(), 0.0);
-      }
-      out.flux(present[q], 0)[face] = std::copysign(given[q], t);
-    }
-  }
-}
-
-/// Material volumes through a row of faces; i of face 0 is cell index 0.
-template <int Dim>
-void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& line, int r_faces, FaceRow& out) {
-  const double* swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces);
-  const std::int8_t *below = m.owner_row(line.row[1]) + line.shift[1], *above = m.owner_row(line.row[2]) + line.shift[2];
-  for (int k = 0; k < m.material_count(); ++k) {
-    out.set_present(k, false);
-  }
-  const int sole = sole_owner(above, out.faces());
-  out.sole = sole >= 0 && sole_owner(below, out.faces()) == sole ? sole : -1;
-  if (out.sole >= 0) {
-    out.set_present(sole, true);
-    double* flux = out.flux(sole, 0);
-#pragma omp simd
-    for (int i = 0; i < out.faces(); ++i) {
-      flux[i] = 0.0 - swept[i];
-    }
-    return;
-  }
-  const int stride = m.grid.cell_row_stride(axis), step = axis == 0 ? 1 : 0;
-  const double* next_swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces + stride) + step;
-  const double* last_swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces - stride) - step;
-  int current = -1;
-  double* flux = nullptr;
-  for (int i = 0; i < out.faces(); ++i) {
-    const double t = -swept[i];
-    if (t == 0) {
-      continue;
-    }
-    const int owner = t > 0 ? below[i] : above[i];
-    if (owner < 0) {
-      const bool gives_twice = t > 0 ? last_swept[i] > 0 : next_swept[i] < 0;
-      mixed_donor(m, s, axis, t > 0 ? line.row[1] : line.row[2], i + (t > 0 ? line.shift[1] : line.shift[2]), t, gives_twice, out, i);
-      current = -1;
-      continue;
-    }
-    if (owner != current) {
-      current = owner;
-      if (!out.present(owner)) {
-        out.set_present(owner, true);
-        double* f = out.flux(owner, 0);
-        std::fill(f, f + out.faces(), 0.0);
-      }
-      flux = out.flux(owner, 0);
-    }
-    flux[i] = t;
-  }
-}
 
 /// Sums a slab contributes to the report, added in slab order.
 struct SlabSums {

@@ -1,0 +1,28 @@
+// Pieces of the Lagrangian step, private to ale/.
+#pragma once
+
+#include "ale/corner_force.hpp"
+#include "ale/scene.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace ballast {
+
+/// The viscous hourglass term damps a 3D mode by 64 x coefficient x CFL a step: explicit, so below 2.
+inline ForceCoefficients force_coefficients(const Numerics& n, double dt) {
+  return {dt, std::min(n.hourglass, 0.03 / n.cfl)};
+}
+
+/// Sums over the cells of a step.
+template <int Dim> struct StepSums {
+  double void_work = 0, volume_change = 0;
+  int failed = 0;
+  std::array<int, 3> failed_cell = {-1, -1, -1}; ///< the last of them
+};
+
+/// Work of the step's forces on every cell, shared among its materials; volumes, deviators and plastic strain after
+/// it. Nodes' new velocities and cells' next_volume must be there.
+template <int Dim> StepSums<Dim> work_pass(Scene<Dim>& scene, Block<Dim>& block, double dt);
+
+} // namespace ballast
