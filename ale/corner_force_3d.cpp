@@ -63,18 +63,6 @@ half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex
   const HexModes mx = hex_modes(g.x), my = hex_modes(g.y), mz = hex_modes(g.z);
   const double along[3][3] = {{mx.xi, my.xi, mz.xi}, {mx.eta, my.eta, mz.eta}, {mx.zeta, my.zeta, mz.zeta}};
   double edges = 0; // mean squared edge length x 48 (a cube root of the volume would not vectorise)
-#pragma GCC unroll 3
-  for (int d = 0; d < 3; ++d) {
-    const double ax = along[d][0], ay = along[d][1], az = along[d][2], squared = ax * ax + ay * ay + az * az;
-    const double q = in.viscosity[d][i] / squared;
-    edges += squared;
-    xx -= q * ax * ax;
-    yy -= q * ay * ay;
-    zz -= q * az * az;
-    xy -= q * ax * ay;
-    yz -= q * ay * az;
-    xz -= q * ax * az;
-  }
   // Velocity gradient times volume, du_a/dx_b.
   double lxx = 0, lxy = 0, lxz = 0, lyx = 0, lyy = 0, lyz = 0, lzx = 0, lzy = 0, lzz = 0;
 #pragma GCC unroll 8
@@ -88,6 +76,19 @@ half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex
     lzx += uz[p] * h.sx[p];
     lzy += uz[p] * h.sy[p];
     lzz += uz[p] * h.sz[p];
+  }
+#pragma GCC unroll 3
+  for (int d = 0; d < 3; ++d) {
+    const double ax = along[d][0], ay = along[d][1], az = along[d][2], squared = ax * ax + ay * ay + az * az;
+    edges += squared;
+    const double rate = ax * (lxx * ax + (lxy + lyx) * ay) + ay * (lyy * ay + (lyz + lzy) * az) + az * (lzz * az + (lxz + lzx) * ax);
+    const double some = in.viscosity[d][i] / squared, q = rate < 0 ? some : 0.0; // never against what it resists
+    xx -= q * ax * ax;
+    yy -= q * ay * ay;
+    zz -= q * az * az;
+    xy -= q * ax * ay;
+    yz -= q * ay * az;
+    xz -= q * ax * az;
   }
   if constexpr (Strength) {
     const double mean = (lxx + lyy + lzz) / 3, gm = in.shear[i] * c.dt / h.volume;

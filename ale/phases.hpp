@@ -14,13 +14,17 @@ template <int Dim> void update_state(Block<Dim>& block, ThreadPool& pool);
 /// and `rho` (a value a cell) are scratch.
 template <int Dim> void row_state(Block<Dim>& block, int row, RowRuns& runs, std::vector<double>& rho);
 
+/// Throws NumericalFailure naming the cell, material and quantity when the row's state is not finite.
+template <int Dim> void throw_if_bad(const Block<Dim>& block, int j, int k);
+
 /// Spall: void opens where a material's pressure is below its spall pressure, so that the cell goes back
 /// to zero pressure. Returns the number of cells.
 template <int Dim> long open_voids(Block<Dim>& block, ThreadPool& pool);
 
-/// Closes void residues (below 1e-2 of a cell) that a remap's reconstruction left inside a body, where that
-/// does not bring a material to its spall pressure. No mass or energy moves. Returns the number of cells.
-template <int Dim> long close_voids(Block<Dim>& block, ThreadPool& pool);
+/// Closes voids that a remap left beside materials compressed enough to fill them, and residues (below 1e-2 of a
+/// cell) inside a body where that does not bring a material to its spall pressure (`spall`: whether anything can
+/// spall). No mass or energy moves. Returns the number of cells.
+template <int Dim> long close_voids(Block<Dim>& block, ThreadPool& pool, bool spall = true);
 
 /// Strain rates, lengths and viscosity along the logical axes, and the largest stable step.
 template <int Dim> DtLimit stable_dt(Scene<Dim>& scene);

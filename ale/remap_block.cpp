@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "remap/mesh.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 #include <utility>
@@ -12,6 +13,17 @@
 namespace ballast {
 
 namespace {
+
+/// Where a return of kinetic energy must stop (J/kg): at half the spall tension at reference density (a thousandth
+/// of the bulk modulus without spall), at zero pressure of a stiffened gas, at zero of a gas.
+double least_energy(const Material& m) {
+  if (const auto* mg = std::get_if<MieGruneisen>(&m.eos)) {
+    const double tension = std::isfinite(m.spall_pressure) ? -0.5 * m.spall_pressure : 1e-3 * mg->rho0 * mg->c0 * mg->c0;
+    return mg->gamma0 > 0 ? -tension / (mg->gamma0 * mg->rho0) : -1e-3 * mg->c0 * mg->c0;
+  }
+  const auto* stiff = std::get_if<StiffenedGas>(&m.eos);
+  return stiff ? stiff->energy(m.density, 0) : 0.0;
+}
 
 template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
   remap::Mesh<Dim> m{.grid = b.grid,
@@ -35,7 +47,7 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
                      }};
   for (MaterialSlot& slot : b.materials) {
     m.materials.push_back(&slot.store);
-    m.free_energy.push_back(std::holds_alternative<MieGruneisen>(slot.material.eos) ? 1 : 0);
+    m.least_energy.push_back(least_energy(slot.material));
   }
   for (int axis = 0; axis < Dim; ++axis) {
     for (int side = 0; side < 2; ++side) {
@@ -43,7 +55,8 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
       m.open[a][s] = b.boundary.open(axis, side);
       m.fixed[a][s] = b.boundary.fixes_normal_velocity(axis, side);
       m.fixed_velocity[a][s] = b.boundary.at(axis, side).velocity;
-      m.void_outside[a][s] = b.boundary.at(axis, side).kind == BoundaryKind::free;
+      // Beyond a free side is a vacuum, or the ambient medium: more of what is at the side.
+      m.void_outside[a][s] = b.boundary.at(axis, side).kind == BoundaryKind::free && b.reference_pressure == 0;
       if (const BoundarySide& from = b.boundary.at(axis, side); from.kind == BoundaryKind::inflow) {
         m.inflow[a][s] = {from.inflow.material, from.inflow.density, from.inflow.specific_energy};
       }
@@ -69,6 +82,20 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   const remap::Settings settings{.normal = scene.numerics.normal, .return_kinetic = scene.numerics.energy_return};
   const std::vector<OutflowNode> leaving = outflow_nodes(b);
   const remap::Report report = remap::remap(mesh, settings, *scene.pool, step / b.motion.remap_every);
+  Ledger& l = scene.ledger;
+  for (std::size_t m = 0; m < report.mass_out.size(); ++m) {
+    l.mass_out[m] += report.mass_out[m];
+  }
+  l.energy_out += report.internal_out + report.kinetic_out;
+  for (std::size_t d = 0; d < 3; ++d) {
+    l.momentum_out[d] += report.momentum_out[d];
+  }
+  l.remap_kinetic_loss += report.kinetic_loss - report.kinetic_returned;
+  l.remap_kinetic_return += report.kinetic_returned;
+  l.energy_floors += report.energy_floors;
+  l.sliver_mass += report.sliver_mass;
+  l.sliver_energy += report.sliver_energy;
+  l.slivers += report.slivers;
   if (report.tangled[0] >= 0) {
     const auto& c = report.tangled;
     throw NumericalFailure(fmt::format("block {}, cell ({}, {}, {}), material {}: volume falls to nothing on the remap's way to its "
@@ -90,20 +117,6 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   if (b.any_strength()) {
     pull_back_to_yield(b, *scene.pool);
   }
-  Ledger& l = scene.ledger;
-  for (std::size_t m = 0; m < report.mass_out.size(); ++m) {
-    l.mass_out[m] += report.mass_out[m];
-  }
-  l.energy_out += report.internal_out + report.kinetic_out;
-  for (std::size_t d = 0; d < 3; ++d) {
-    l.momentum_out[d] += report.momentum_out[d];
-  }
-  l.remap_kinetic_loss += report.kinetic_loss - report.kinetic_returned;
-  l.remap_kinetic_return += report.kinetic_returned;
-  l.energy_floors += report.energy_floors;
-  l.sliver_mass += report.sliver_mass;
-  l.sliver_energy += report.sliver_energy;
-  l.slivers += report.slivers;
 }
 
 template void remap_block<2>(Scene<2>&, Block<2>&, long);

@@ -22,7 +22,7 @@ template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
 template <int Dim> void new_state(Scene<Dim>& scene, Block<Dim>& block, bool remapped) {
   update_state(block, *scene.pool);
   if (remapped) {
-    scene.ledger.closed_voids += close_voids(block, *scene.pool);
+    scene.ledger.closed_voids += close_voids(block, *scene.pool, scene.numerics.spall);
   }
   if (scene.numerics.spall) {
     scene.ledger.spalled_cells += open_voids(block, *scene.pool);

@@ -154,6 +154,15 @@ template <int Dim> BadCell check_row(const Block<Dim>& b, int j, int k) {
   return {};
 }
 
+template <int Dim> void report(const Block<Dim>& b, const BadCell& c) {
+  if (c.found()) {
+    throw NumericalFailure(fmt::format(
+        "block {}, cell ({}, {}, {}), material {}: bulk modulus {:g} Pa at density {:g} kg/m3, specific energy {:g} J/kg",
+        b.name, c.cell[0], c.cell[1], c.cell[2], b.materials[static_cast<std::size_t>(c.material)].material.name, c.modulus,
+        c.density, c.energy));
+  }
+}
+
 } // namespace
 
 template <int Dim> void row_state(Block<Dim>& b, int r, RowRuns& runs, std::vector<double>& rho) {
@@ -185,15 +194,11 @@ template <int Dim> void update_state(Block<Dim>& b, ThreadPool& pool) {
     }
   });
   for (const BadCell& c : bad) {
-    if (c.found()) {
-      throw NumericalFailure(fmt::format(
-          "block {}, cell ({}, {}, {}), material {}: bulk modulus {:g} Pa at density {:g} kg/m3, "
-          "specific energy {:g} J/kg",
-          b.name, c.cell[0], c.cell[1], c.cell[2], b.materials[static_cast<std::size_t>(c.material)].material.name,
-          c.modulus, c.density, c.energy));
-    }
+    report(b, c);
   }
 }
+
+template <int Dim> void throw_if_bad(const Block<Dim>& b, int j, int k) { report(b, check_row(b, j, k)); }
 
 template <int Dim> std::string contents(const Block<Dim>& b, const std::array<int, 3>& cell) {
   std::string out;
@@ -262,6 +267,8 @@ template <int Dim> Totals totals(const Block<Dim>& b) {
 
 template void row_state<2>(Block<2>&, int, RowRuns&, std::vector<double>&);
 template void row_state<3>(Block<3>&, int, RowRuns&, std::vector<double>&);
+template void throw_if_bad<2>(const Block<2>&, int, int);
+template void throw_if_bad<3>(const Block<3>&, int, int);
 template void update_state<2>(Block<2>&, ThreadPool&);
 template void update_state<3>(Block<3>&, ThreadPool&);
 template std::string contents<2>(const Block<2>&, const std::array<int, 3>&);

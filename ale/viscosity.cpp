@@ -1,7 +1,8 @@
 // Artificial viscosity and the stable time step.
 //
-// Along each logical axis d the velocity jump across a cell is du = e L with the strain rate e = t.du/t^2 of the
-// mid line t (du: between its ends) and L = V / |mid surface|. In compression
+// Along each logical axis d the velocity jump across a cell is du = e L with the strain rate e = t.grad(u).t/t^2 of the
+// mid line t and L = V / |mid surface|; in 3D e = t.du/t^2 with du between the line's ends, which is the same but for
+// hourglass motion (the force itself looks at the gradient again: q never drives). In compression
 //   q = rho |du'| (a |du'| + sqrt((a du')^2 + (b c)^2)),  du' = (1 - psi) du      (Kuropatenko)
 // with a = quadratic_q * 2/3 (the (gamma+1)/4 of a 5/3 gas; s/2 of a solid is 0.7) and b = linear_q. The
 // limiter psi = max(0, min((r_l + r_r)/2, 2 r_l, 2 r_r, 1)) compares e with the two neighbours along the
@@ -34,17 +35,27 @@ template <bool Axisymmetric> void rates_2d(Block<2>& b, int j) {
   const int r = g.cell_row(j, 0);
   double *e0 = b.strain_rate[0].row(r), *e1 = b.strain_rate[1].row(r);
   double *l0 = b.length[0].row(r), *l1 = b.length[1].row(r);
+  const double* volume = b.volume.row(r);
 #pragma omp simd
   for (int i = 0; i < g.cells[0]; ++i) {
     const QuadGeometry<Axisymmetric> q{{x0[i], x0[i + 1], x1[i + 1], x1[i]},
                                        {y0[i], y0[i + 1], y1[i + 1], y1[i]}};
+    const double u[4] = {u0[i], u0[i + 1], u1[i + 1], u1[i]}, v[4] = {v0[i], v0[i + 1], v1[i + 1], v1[i]};
+    double sx[4], sy[4], hoop[4], xx = 0, xy = 0, yx = 0, yy = 0;
+    q.gradient(sx, sy, hoop);
+#pragma GCC unroll 4
+    for (int p = 0; p < 4; ++p) {
+      const double ax = Axisymmetric ? sx[p] - hoop[p] : sx[p];
+      xx += u[p] * ax;
+      xy += u[p] * sy[p];
+      yx += v[p] * ax;
+      yy += v[p] * sy[p];
+    }
     const double t0x = 0.5 * (q.x[1] + q.x[2] - q.x[0] - q.x[3]), t0y = 0.5 * (q.y[1] + q.y[2] - q.y[0] - q.y[3]);
     const double t1x = 0.5 * (q.x[3] + q.x[2] - q.x[0] - q.x[1]), t1y = 0.5 * (q.y[3] + q.y[2] - q.y[0] - q.y[1]);
     const double a0 = t1x * t1x + t1y * t1y, a1 = t0x * t0x + t0y * t0y;
-    const double w0x = 0.5 * (u0[i + 1] + u1[i + 1] - u0[i] - u1[i]), w0y = 0.5 * (v0[i + 1] + v1[i + 1] - v0[i] - v1[i]);
-    const double w1x = 0.5 * (u1[i] + u1[i + 1] - u0[i] - u0[i + 1]), w1y = 0.5 * (v1[i] + v1[i + 1] - v0[i] - v0[i + 1]);
-    e0[i] = (w0x * t0x + w0y * t0y) / a1;
-    e1[i] = (w1x * t1x + w1y * t1y) / a0;
+    e0[i] = (t0x * t0x * xx + t0x * t0y * (xy + yx) + t0y * t0y * yy) / (a1 * volume[i]);
+    e1[i] = (t1x * t1x * xx + t1x * t1y * (xy + yx) + t1y * t1y * yy) / (a0 * volume[i]);
     const double area = q.area();
     l0[i] = area / std::sqrt(a0);
     l1[i] = area / std::sqrt(a1);

@@ -60,7 +60,11 @@ template <int Dim> bool near_pure_void(const Block<Dim>& b, const std::array<int
     for (int step = -reach; step <= reach; ++step) {
       std::array<int, 3> at = cell;
       at[axis] += step;
-      if (at[axis] >= 0 && at[axis] < g.cells[axis] && b.owner_row(g.cell_row(at[1], at[2]))[at[0]] == b.void_index()) {
+      if (at[axis] < 0 || at[axis] >= g.cells[axis]) {
+        if (b.boundary.at(static_cast<int>(axis), at[axis] < 0 ? 0 : 1).kind == BoundaryKind::free) {
+          return true; // a free side is a surface
+        }
+      } else if (b.owner_row(g.cell_row(at[1], at[2]))[at[0]] == b.void_index()) {
         return true;
       }
     }
@@ -91,7 +95,8 @@ template <int Dim> double spread_void(const Block<Dim>& b, const std::array<int,
 /// squeezed), or it is a residue that reconstruction left inside a body, which would cut the body's tension for
 /// good: small, no pure void beside the cell, and closing it does not bring any material to its spall pressure.
 /// A void inside a body counts whole, with what a remap has spread of it: else a spall would heal piece by piece.
-template <int Dim> bool to_be_closed(const Block<Dim>& b, int i, int j, int k) {
+template <int Dim> bool to_be_closed(const Block<Dim>& b, int i, int j, int k, bool spall) {
+  constexpr double trace = 1e-3;           // what holds less of a cell does not decide whether it tears
   constexpr double largest_residue = 1e-2; // about the spall strain of metals, p_spall / K; the law is below
   const Grid& g = b.grid;
   const int r = g.cell_row(j, k), hole = b.void_index();
@@ -104,10 +109,13 @@ template <int Dim> bool to_be_closed(const Block<Dim>& b, int i, int j, int k) {
     const MaterialSlot& slot = b.materials[m];
     const double f = slot.store.row(field::fraction, r)[i];
     if (f > 0) {
-      const double soft = f / slot.store.row(slot.modulus_field(), r)[i];
-      compliance += soft;
-      expansion += soft * (slot.store.row(slot.pressure_field(), r)[i] + b.reference_pressure);
-      weakest = std::max(weakest, slot.material.spall_pressure);
+      const double modulus = slot.store.row(slot.modulus_field(), r)[i];
+      if (!(modulus > 0)) {
+        return false; // at the end of its EOS: it cannot share in anything
+      }
+      compliance += f / modulus;
+      expansion += f / modulus * (slot.store.row(slot.pressure_field(), r)[i] + b.reference_pressure);
+      weakest = f > trace && spall ? std::max(weakest, slot.material.spall_pressure) : weakest;
     }
   }
   if (expansion >= gap) {
@@ -117,15 +125,23 @@ template <int Dim> bool to_be_closed(const Block<Dim>& b, int i, int j, int k) {
     return false;
   }
   const double whole = std::isfinite(weakest) ? spread_void(b, {i, j, k}) : gap; // what cannot spall has nothing to keep open
-  return whole <= largest_residue && -whole / compliance > weakest;
+  return whole <= largest_residue && (expansion - whole) / compliance > weakest;
 }
 
+/// The materials take the void's room, the soft ones most of it (as the closure shares a volume change).
 template <int Dim> void close_void(Block<Dim>& b, int r, int i) {
-  double& gap = b.materials.back().store.row(field::fraction, r)[i];
-  const double stretch = 1 / (1 - gap);
+  double compliance = 0;
+  std::vector<double> room(b.materials.size(), 0.0);
   for (std::size_t m = 0; m + 1 < b.materials.size(); ++m) {
-    if (std::as_const(b.materials[m].store).row(field::fraction, r)[i] > 0) {
-      b.materials[m].store.row(field::fraction, r)[i] *= stretch;
+    const MaterialSlot& slot = b.materials[m];
+    const double f = slot.store.row(field::fraction, r)[i];
+    room[m] = f > 0 ? f / slot.store.row(slot.modulus_field(), r)[i] : 0.0;
+    compliance += room[m];
+  }
+  double& gap = b.materials.back().store.row(field::fraction, r)[i];
+  for (std::size_t m = 0; m + 1 < b.materials.size(); ++m) {
+    if (room[m] > 0) {
+      b.materials[m].store.row(field::fraction, r)[i] += gap * room[m] / compliance;
     }
   }
   gap = 0;
@@ -164,6 +180,7 @@ long change_cells(Block<Dim>& b, ThreadPool& pool, Wanted&& wanted, Change&& cha
         change(r, i);
       }
       row_state(b, r, runs, rho);
+      throw_if_bad(b, j, k);
       count += static_cast<long>(cells.size());
     }
   }
@@ -172,7 +189,7 @@ long change_cells(Block<Dim>& b, ThreadPool& pool, Wanted&& wanted, Change&& cha
 
 } // namespace
 
-template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool) {
+template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool, bool spall) {
   if (b.void_index() < 0) {
     return 0;
   }
@@ -180,7 +197,7 @@ template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool) {
       b,
       pool,
       [&](int i, int j, int k) {
-        return b.owner_row(b.grid.cell_row(j, k))[i] == mixed_cell && to_be_closed(b, i, j, k);
+        return b.owner_row(b.grid.cell_row(j, k))[i] == mixed_cell && to_be_closed(b, i, j, k, spall);
       },
       [&](int r, int i) { close_void(b, r, i); });
 }
@@ -205,8 +222,8 @@ template <int Dim> long open_voids(Block<Dim>& b, ThreadPool& pool) {
       });
 }
 
-template long close_voids<2>(Block<2>&, ThreadPool&);
-template long close_voids<3>(Block<3>&, ThreadPool&);
+template long close_voids<2>(Block<2>&, ThreadPool&, bool);
+template long close_voids<3>(Block<3>&, ThreadPool&, bool);
 template long open_voids<2>(Block<2>&, ThreadPool&);
 template long open_voids<3>(Block<3>&, ThreadPool&);
 

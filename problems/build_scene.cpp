@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <cmath>
 
 namespace ballast {
@@ -168,13 +169,12 @@ template <int Dim> void apply_boundary_velocity(Block<Dim>& b) {
 }
 
 template <int Dim> bool starts_with_void(const Block<Dim>& b) {
+  constexpr double some = 1e-6; // of a cell; less is the rounding of the bodies' shares
   bool any = false;
-  if (const int hole = b.void_index(); hole >= 0) {
-    const TileStore& store = b.materials[static_cast<std::size_t>(hole)].store;
-    for (int tile = 0; tile < store.tile_count(); ++tile) {
-      any = any || store.any(field::fraction, tile);
-    }
-  }
+  for_each_cell(b, [&](int i, int j, int k) {
+    const int hole = b.void_index();
+    any = any || (hole >= 0 && std::as_const(b.materials[static_cast<std::size_t>(hole)].store).row(field::fraction, b.grid.cell_row(j, k))[i] > some);
+  });
   return any;
 }
 

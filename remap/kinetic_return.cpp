@@ -14,38 +14,35 @@ struct ReturnSums {
   long floors = 0;
 };
 
-constexpr double largest_fall = 0.5; ///< of a cell's internal energy that a negative return may take
+constexpr double largest_fall = 0.5; ///< of what a material has above its least energy that a negative return may take
 
-/// A fall in internal energy (J) that a cell owes and its own materials cannot bear.
+/// A fall in internal energy (J) that a material owes in a cell and cannot bear there.
 struct Shortage {
-  int i, j, k;
+  int material, i, j, k;
   double energy;
 };
 
-/// Energy (J) that the cell can give without any material falling below largest_fall; with `share` > 0 gives
-/// that share of it.
-template <int Dim> double give(Mesh<Dim>& m, int i, int j, int k, double share) {
-  const int r = m.grid.cell_row(j, k);
-  double sum = 0;
-  for (int mat = 0; mat < m.material_count(); ++mat) {
-    TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
-    if (m.is_void(mat) || !store.has_row(r)) {
-      continue;
-    }
-    const double mass = std::as_const(store).row(1, r)[i], least = std::max(0.0, largest_fall * std::as_const(store).row(2, r)[i]);
-    sum += mass * least;
-    if (share > 0 && mass > 0) {
-      store.row(2, r)[i] -= share * least;
-    }
+/// What a cell's share of a material was given by this return (J), to pay a neighbour's shortage from; with
+/// `share` > 0 takes that share of it back. `gain` is by mass (J/kg).
+template <int Dim> double take_back(Mesh<Dim>& m, RowField& gain, int mat, const int (&cell)[3], double share) {
+  TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
+  const int r = m.grid.cell_row(cell[1], cell[2]), i = cell[0];
+  if (!store.has_row(r)) {
+    return 0;
   }
-  return sum;
+  const double mass = std::as_const(store).row(1, r)[i], given = std::max(0.0, gain.row(r)[i]);
+  if (share > 0 && mass > 0) {
+    store.row(2, r)[i] -= share * given;
+    gain.row(r)[i] -= share * given;
+  }
+  return mass * given;
 }
 
-/// A cold cell beside a shock owes what the shocked cell next to it was given too much: the cell and its
-/// neighbours pay, by what they can give. Few cells, in order: the same bits for any threads.
-template <int Dim> void settle(Mesh<Dim>& m, const Shortage& s, ReturnSums& sums) {
-  int cell[1 + 2 * Dim][3] = {{s.i, s.j, s.k}};
-  int count = 1;
+/// A cold cell beside a shock owes what the shocked cells next to it were given too much: they pay, of the same
+/// material and out of that gain alone. Few cells, in order: the same bits for any threads.
+template <int Dim> void settle(Mesh<Dim>& m, RowField& gain, const Shortage& s, ReturnSums& sums) {
+  int cell[2 * Dim][3] = {};
+  int count = 0;
   for (int axis = 0; axis < Dim; ++axis) {
     for (const int step : {-1, 1}) {
       int at[3] = {s.i, s.j, s.k};
@@ -57,14 +54,14 @@ template <int Dim> void settle(Mesh<Dim>& m, const Shortage& s, ReturnSums& sums
   }
   double able = 0;
   for (int c = 0; c < count; ++c) {
-    able += give(m, cell[c][0], cell[c][1], cell[c][2], 0);
+    able += take_back(m, gain, s.material, cell[c], 0);
   }
   const double share = able > 0 ? std::min(1.0, s.energy / able) : 0.0;
   for (int c = 0; c < count && share > 0; ++c) {
-    give(m, cell[c][0], cell[c][1], cell[c][2], share);
+    take_back(m, gain, s.material, cell[c], share);
   }
   sums.returned -= share * able;
-  sums.floors += share * able < s.energy ? 1 : 0;
+  sums.floors += share * able < s.energy * (1 - 1e-9) ? 1 : 0;
 }
 
 } // namespace
@@ -102,6 +99,7 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
           }
         }
         const int r = g.cell_row(j, k);
+        std::copy(gains, gains + g.cells[0], m.scratch->cell_mass.row(r)); // the sweeps are done with it
         for (int mat = 0; mat < m.material_count(); ++mat) {
           TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
           if (m.is_void(mat) || !store.has_row(r)) {
@@ -109,23 +107,23 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
           }
           double *e = store.row(2, r), *given = returned.data();
           const double* mass = std::as_const(store).row(1, r);
-          const bool free = m.energy_may_fall(mat);
+          const double lowest = m.least_energy_of(mat);
           int cut = 0;
 #pragma omp simd reduction(+ : cut)
-          for (int i = 0; i < (free ? 0 : g.cells[0]); ++i) {
-            cut += (mass[i] > 0) & (gains[i] < 0) & (gains[i] < -largest_fall * e[i]) ? 1 : 0;
+          for (int i = 0; i < g.cells[0]; ++i) {
+            cut += (mass[i] > 0) & (gains[i] < 0) & (gains[i] < -largest_fall * (e[i] - lowest)) ? 1 : 0;
           }
           for (int i = 0; i < g.cells[0] && cut > 0; ++i) {
-            if (mass[i] > 0 && gains[i] < 0 && gains[i] < -largest_fall * e[i]) {
-              const double most = std::min(0.0, -largest_fall * e[i]);
-              shortages[static_cast<std::size_t>(s)].push_back({i, j, k, mass[i] * (most - gains[i])});
+            if (mass[i] > 0 && gains[i] < 0 && gains[i] < -largest_fall * (e[i] - lowest)) {
+              const double most = std::min(0.0, -largest_fall * (e[i] - lowest));
+              shortages[static_cast<std::size_t>(s)].push_back({mat, i, j, k, mass[i] * (most - gains[i])});
             }
           }
 #pragma omp simd
           for (int i = 0; i < g.cells[0]; ++i) {
-            const double wanted = gains[i], least = -largest_fall * e[i], floor = least < 0 ? least : 0.0;
+            const double wanted = gains[i], least = -largest_fall * (e[i] - lowest), floor = least < 0 ? least : 0.0;
             const bool some = mass[i] > 0, falls = (wanted < 0) & (wanted < least);
-            const double limited = falls ? floor : wanted, bounded = free ? wanted : limited, gain = some ? bounded : 0.0;
+            const double limited = falls ? floor : wanted, gain = some ? limited : 0.0;
             e[i] += gain;
             given[i] = mass[i] * gain;
           }
@@ -136,7 +134,7 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
   });
   for (const auto& slab : shortages) {
     for (const Shortage& s : slab) {
-      settle(m, s, sums.front());
+      settle(m, m.scratch->cell_mass, s, sums.front());
     }
   }
   for (const ReturnSums& s : sums) {

@@ -51,9 +51,9 @@ template <int Dim> struct Mesh {
   std::array<RowField, Dim>& mass_flux; ///< scratch, faces: mass through the face along +axis, kg
   std::vector<TileStore*> materials;    ///< void last, if any
   bool has_void = false;
-  /// By material: may its specific energy fall below zero? Of a condensed one it may (its zero is a choice), of a gas
-  /// not. Empty: none may.
-  std::vector<char> free_energy = {};
+  /// Specific energy (J/kg) by material below which a return of kinetic energy may not bring it: 0 of a gas, of a
+  /// condensed one (whose zero is a choice) where cold tension begins to matter. Empty: 0.
+  std::vector<double> least_energy = {};
   std::vector<std::int8_t>& owner;                       ///< the only material of a cell, or -1
   Scratch* scratch = nullptr; ///< optional: without it every sweep allocates its own
   std::function<void(RowField&, int)> exchange_velocity; ///< fills ghosts of a component
@@ -65,7 +65,7 @@ template <int Dim> struct Mesh {
     return owner.data() + static_cast<std::ptrdiff_t>(r) * grid.cell_pitch() + grid.ghost[0];
   }
   int material_count() const { return static_cast<int>(materials.size()); }
-  bool energy_may_fall(int m) const { return !free_energy.empty() && free_energy[static_cast<std::size_t>(m)] != 0; }
+  double least_energy_of(int m) const { return least_energy.empty() ? 0.0 : least_energy[static_cast<std::size_t>(m)]; }
   bool is_void(int m) const { return has_void && m == material_count() - 1; }
 };
 
@@ -87,7 +87,8 @@ struct Report {
   long energy_floors = 0;      ///< cells where a negative return was cut
   double sliver_mass = 0, sliver_energy = 0;
   long slivers = 0;
-  /// A cell that even the smallest part of the motion would turn inside out; its nodes are where they were, i < 0: none.
+  /// A cell that even the smallest part of the motion would turn inside out, i < 0: none. The block is then on its way
+  /// between the meshes, all that was moved accounted for.
   std::array<int, 3> tangled = {-1, -1, -1};
 };
 

@@ -44,7 +44,7 @@ template <int Dim> void strain_of_row(const Mesh<Dim>& m, int r, long order, std
     for (int i = 0; i < n; ++i) {
       const double least = std::min(v[i], v_new[i]);
       const double here = std::max(v_star[i] / least, least / std::max(v_star[i], 1e-9 * least));
-      ratio = std::max(ratio, least > 0 ? here : 0.0); // an inverted target is not a matter of step size
+      ratio = std::max(ratio, least > 0 ? here : std::numeric_limits<double>::infinity());
     }
   }
   worst = {share, ratio};
@@ -288,7 +288,7 @@ template <int Dim> Report remap(Mesh<Dim>& m, const Settings& settings, ThreadPo
       part = 0.5 * (next - done);
       continue;
     }
-    if (!(s.ratio < hopeless_ratio)) {
+    if (!(s.ratio < hopeless_ratio && s.share < 1)) {
       report.tangled = worst_cell(m, turn);
       return report;
     }
