@@ -107,7 +107,7 @@ void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, in
 /// Node masses from cell masses: M_p = sum of the cells' shares.
 template <int Dim> void compute_node_mass(Block<Dim>& block, ThreadPool& pool);
 
-/// owner from the volume fractions; fractions of a cell made to sum to one, the largest absorbing round-off.
+/// owner of a row's cells from their volume fractions.
 template <int Dim> void compute_owner(Block<Dim>& block, int row);
 
 /// Runs of a row: pure ones (material, begin, end) and mixed cells, left to right.

@@ -61,7 +61,6 @@ struct Ledger {
   double void_work = 0;           ///< J gained by cells with void beyond their forces' work: void holds no energy
   double remap_kinetic_loss = 0;  ///< J of kinetic energy lost in remaps and not returned
   double remap_kinetic_return = 0; ///< J lost and returned to internal energy
-  double stress_remap_loss = 0;   ///< J
   double energy_out = 0;          ///< J, total energy that crossed open boundaries
   std::vector<double> mass_out;   ///< kg by material
   std::array<double, 3> momentum_out = {0, 0, 0}; ///< kg m/s through open boundaries
@@ -69,7 +68,7 @@ struct Ledger {
   double sliver_mass = 0;         ///< kg
   long slivers = 0;
   long spalled_cells = 0;
-  long closed_voids = 0;          ///< void residues closed after remaps
+  long closed_voids = 0;          ///< voids closed after remaps: residues, and what compressed materials fill
   long energy_floors = 0;         ///< cells whose energy return was cut to keep e from falling
   long retries = 0;
 };

@@ -69,6 +69,7 @@ void write_checkpoint(const std::filesystem::path& path, const Scene<Dim>& scene
     const std::string base = fmt::format("block_{}/", ib);
     const auto put = [&](const std::string& name, const std::vector<double>& v) { out.put(base + name, v); };
     visit_fields<Dim>(b, put);
+    put("reference_pressure", {b.reference_pressure});
     for (std::size_t m = 0; m < b.materials.size(); ++m) {
       const TileStore& store = b.materials[m].store;
       const std::string mat = base + fmt::format("material_{}/", m);
@@ -120,6 +121,9 @@ void read_checkpoint(const std::filesystem::path& path, Scene<Dim>& scene, Clock
       }
       return v;
     };
+    if (fit(base + "reference_pressure", in.get_doubles(base + "reference_pressure"), 1)[0] != b.reference_pressure) {
+      throw Error(fmt::format("{}: written by a version of the program that took forces against another pressure; start the deck anew", path.string()));
+    }
     visit_fields<Dim>(b, [&](const std::string& name, std::vector<double>& v) {
       v = fit(base + name, in.get_doubles(base + name), v.size());
     });
