@@ -48,6 +48,7 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
   for (MaterialSlot& slot : b.materials) {
     m.materials.push_back(&slot.store);
     m.least_energy.push_back(least_energy(slot.material));
+    m.reference_density.push_back(slot.material.density);
   }
   for (int axis = 0; axis < Dim; ++axis) {
     for (int side = 0; side < 2; ++side) {

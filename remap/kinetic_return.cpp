@@ -22,27 +22,30 @@ struct Shortage {
   double energy;
 };
 
-/// What a cell's share of a material was given by this return (J), to pay a neighbour's shortage from; with
-/// `share` > 0 takes that share of it back. `gain` is by mass (J/kg).
-template <int Dim> double take_back(Mesh<Dim>& m, RowField& gain, int mat, const int (&cell)[3], double share) {
+/// What a cell's material can pay (J): first, of what this return gave it; then, of what it has above its least energy.
+/// With `share` > 0 takes that share of it. `gain` is by mass (J/kg).
+enum class Purse { gain, energy };
+template <int Dim> double pay(Mesh<Dim>& m, RowField& gain, Purse purse, int mat, const int (&cell)[3], double share) {
   TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
   const int r = m.grid.cell_row(cell[1], cell[2]), i = cell[0];
   if (!store.has_row(r)) {
     return 0;
   }
-  const double mass = std::as_const(store).row(1, r)[i], given = std::max(0.0, gain.row(r)[i]);
+  const double mass = std::as_const(store).row(1, r)[i], above = std::as_const(store).row(2, r)[i] - m.least_energy_of(mat);
+  const double most = std::max(0.0, largest_fall * above), given = std::min(most, gain.row(r)[i]);
+  const double able = purse == Purse::energy ? most : std::max(0.0, given);
   if (share > 0 && mass > 0) {
-    store.row(2, r)[i] -= share * given;
-    gain.row(r)[i] -= share * given;
+    store.row(2, r)[i] -= share * able;
+    gain.row(r)[i] -= share * able;
   }
-  return mass * given;
+  return mass * able;
 }
 
 /// A cold cell beside a shock owes what the shocked cells next to it were given too much: they pay, of the same
-/// material and out of that gain alone. Few cells, in order: the same bits for any threads.
+/// material, out of that gain if it is enough. Few cells, in order: the same bits for any threads.
 template <int Dim> void settle(Mesh<Dim>& m, RowField& gain, const Shortage& s, ReturnSums& sums) {
-  int cell[2 * Dim][3] = {};
-  int count = 0;
+  int cell[1 + 2 * Dim][3] = {{s.i, s.j, s.k}};
+  int count = 1;
   for (int axis = 0; axis < Dim; ++axis) {
     for (const int step : {-1, 1}) {
       int at[3] = {s.i, s.j, s.k};
@@ -52,16 +55,20 @@ template <int Dim> void settle(Mesh<Dim>& m, RowField& gain, const Shortage& s, 
       }
     }
   }
-  double able = 0;
-  for (int c = 0; c < count; ++c) {
-    able += take_back(m, gain, s.material, cell[c], 0);
+  double owed = s.energy;
+  for (const Purse purse : {Purse::gain, Purse::energy}) {
+    double able = 0;
+    for (int c = 0; c < count; ++c) {
+      able += pay(m, gain, purse, s.material, cell[c], 0);
+    }
+    const double share = able > 0 ? std::min(1.0, owed / able) : 0.0;
+    for (int c = 0; c < count && share > 0; ++c) {
+      pay(m, gain, purse, s.material, cell[c], share);
+    }
+    owed = share < 1 && able > 0 ? 0.0 : owed - able;
+    sums.returned -= share * able;
   }
-  const double share = able > 0 ? std::min(1.0, s.energy / able) : 0.0;
-  for (int c = 0; c < count && share > 0; ++c) {
-    take_back(m, gain, s.material, cell[c], share);
-  }
-  sums.returned -= share * able;
-  sums.floors += share * able < s.energy * (1 - 1e-9) ? 1 : 0;
+  sums.floors += owed > 0 ? 1 : 0;
 }
 
 } // namespace

@@ -65,6 +65,10 @@ template <int Dim> struct Mesh {
     return owner.data() + static_cast<std::ptrdiff_t>(r) * grid.cell_pitch() + grid.ghost[0];
   }
   int material_count() const { return static_cast<int>(materials.size()); }
+  /// Reference density (kg/m3) by material: what weighs less than a sliver's share of a cell at this density is round-off
+  /// too, whatever room it takes. Empty: 0.
+  std::vector<double> reference_density = {};
+  double reference_density_of(int m) const { return reference_density.empty() ? 0.0 : reference_density[static_cast<std::size_t>(m)]; }
   double least_energy_of(int m) const { return least_energy.empty() ? 0.0 : least_energy[static_cast<std::size_t>(m)]; }
   bool is_void(int m) const { return has_void && m == material_count() - 1; }
 };

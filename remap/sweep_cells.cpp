@@ -173,6 +173,9 @@ private:
       for (int i = 0; i < n; ++i) {
         f_next[i] = f[i] == 0 || v_next[i] == v[i] ? f[i] : f[i] * v[i] / v_next[i];
       }
+      if (!m_.is_void(q)) {
+        drop_slivers(store, q, r, sums);
+      }
       return;
     }
     const double *t_low = flux_or_zero(low, q, 0), *t_high = flux_or_zero(high, q, 0) + step;
@@ -190,7 +193,7 @@ private:
       return;
     }
     update_intensives(store, q, r, low, high, step);
-    drop_slivers(store, r, sums);
+    drop_slivers(store, q, r, sums);
   }
 
   /// Mass and what it carries.
@@ -229,16 +232,18 @@ private:
     return zeros_.data();
   }
 
-  void drop_slivers(TileStore& store, int r, SlabSums& sums) {
+  void drop_slivers(TileStore& store, int q, int r, SlabSums& sums) {
     double* f = store.next_row(0, r);
     double* mass = store.next_row(1, r);
+    const double* volume = m_.next_volume.row(r);
+    const double least = sliver_fraction * m_.reference_density_of(q);
     int suspects = 0;
 #pragma omp simd reduction(+ : suspects)
     for (int i = 0; i < m_.grid.cells[0]; ++i) {
-      suspects += (f[i] < sliver_fraction) | !(mass[i] > 0) ? 1 : 0;
+      suspects += (f[i] < sliver_fraction) | !(mass[i] > least * volume[i]) ? 1 : 0;
     }
     for (int i = 0; i < m_.grid.cells[0] && suspects > 0; ++i) {
-      if ((f[i] >= sliver_fraction && mass[i] > 0) || (f[i] == 0 && mass[i] == 0)) {
+      if ((f[i] >= sliver_fraction && mass[i] > least * volume[i]) || (f[i] == 0 && mass[i] == 0)) {
         continue;
       }
       sums.sliver_mass += mass[i];

@@ -101,5 +101,31 @@ TEST(Void, ResidueInAStretchedBodyStaysWhenClosingWouldTearIt) {
   EXPECT_EQ(close_voids(b, pool, false), 1); // what cannot spall has nothing to keep open
 }
 
+TEST(Void, WhatWeighsNothingIsDroppedWhateverRoomItTakes) {
+  // A wisp of muscle, a thousandth of a cell at 1e-13 kg/m3: kept, it set the step (1e-27 s) by its speed of sound.
+  const Material muscle = *find_material("muscle");
+  Scene<2> scene;
+  Block<2> b;
+  b.materials.push_back(make_slot(muscle, 0));
+  b.materials.push_back(make_void());
+  allocate_block(b, {std::vector<double>{0, 1e-3, 2e-3, 3e-3}, std::vector<double>{0, 1e-3}, {}});
+  for (int i = 0; i < 3; ++i) {
+    const double f = i == 0 ? 1 : i == 1 ? 1e-3 : 0, density = i == 0 ? muscle.density : 1e-13;
+    const CellPart parts[2] = {{0, f, density, muscle.specific_energy}, {1, 1 - f, 0, 0}};
+    fill_cell<2>(b, i, 0, 0, std::span<const CellPart>(f > 0 ? parts : parts + 1, f > 0 && f < 1 ? 2 : 1));
+  }
+  scene.blocks.push_back(std::move(b));
+  scene.ledger.mass_out.assign(2, 0.0);
+  ThreadPool pool(1);
+  Block<2>& block = scene.blocks[0];
+  compute_node_mass(block, pool);
+  update_state(block, pool);
+  remap_block(scene, block, 0);
+  const int r = block.grid.cell_row(0, 0);
+  EXPECT_EQ(block.materials[0].store.row(field::mass, r)[1], 0);
+  EXPECT_GT(block.materials[0].store.row(field::mass, r)[0], 0);
+  EXPECT_GT(scene.ledger.sliver_mass, 0);
+}
+
 } // namespace
 } // namespace ballast
