@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ballast {
 
@@ -168,6 +169,24 @@ template <int Dim> void pull_back_to_yield(const Material& material, int count, 
       material.strength);
 }
 
+template <int Dim> void relax_slivers(const double* fraction, int count, const StressRows<Dim>& rows) {
+  constexpr double sliver = 1e-4; // of a cell
+  int found = 0;
+#pragma omp simd reduction(+ : found)
+  for (int i = 0; i < count; ++i) {
+    found += (fraction[i] > 0) & (fraction[i] < sliver) ? 1 : 0;
+  }
+  for (int i = 0; i < count && found > 0; ++i) {
+    if (fraction[i] > 0 && fraction[i] < sliver) {
+      for (int a = 0; a < stress_components<Dim>; ++a) {
+        rows.stress[a][i] = 0;
+      }
+    }
+  }
+}
+template void relax_slivers<2>(const double*, int, const StressRows<2>&);
+template void relax_slivers<3>(const double*, int, const StressRows<3>&);
+
 template <int Dim> void pull_back_to_yield(Block<Dim>& b, ThreadPool& pool) {
   const Grid& g = b.grid;
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
@@ -187,6 +206,7 @@ template <int Dim> void pull_back_to_yield(Block<Dim>& b, ThreadPool& pool) {
           rows.flow_stress = slot.store.row(slot.flow_stress_field(), r);
           rows.energy = slot.store.row(field::energy, r);
           pull_back_to_yield<Dim>(slot.material, g.cells[0], rows);
+          relax_slivers(std::as_const(slot.store).row(field::fraction, r), g.cells[0], rows);
         }
       }
     }

@@ -23,7 +23,10 @@ template <int Dim>
 /// Scales deviators back to the flow stress (after a remap).
 template <int Dim> void pull_back_to_yield(const Material& material, int count, const StressRows<Dim>& rows);
 
-/// The same for every cell of a block; also sets the flow stresses (start of a run, after a remap).
+/// A sliver (below 1e-4 of its cell) carries no deviator: a steady pull on next to no mass would fling it away.
+template <int Dim> void relax_slivers(const double* fraction, int count, const StressRows<Dim>& rows);
+
+/// Both for every cell of a block; also sets the flow stresses (start of a run, after a remap).
 template <int Dim> void pull_back_to_yield(Block<Dim>& block, ThreadPool& pool);
 
 } // namespace ballast

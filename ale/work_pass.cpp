@@ -174,7 +174,9 @@ void advance_row(Scene<Dim>& scene, Block<Dim>& b, int j, int k, double dt, Work
     sums.void_work += advance_mixed(scene, b, r, i, dt, buffer.rows);
     for (MaterialSlot& slot : b.materials) {
       if (slot.strength && std::as_const(slot.store).row(field::fraction, r)[i] > 0) {
-        const int failed = update_stress<Dim>(slot.material, dt, 1, stress_rows<Dim>(slot, r, i, &buffer.rows));
+        const StressRows<Dim> rows = stress_rows<Dim>(slot, r, i, &buffer.rows);
+        const int failed = update_stress<Dim>(slot.material, dt, 1, rows);
+        relax_slivers(&std::as_const(slot.store).row(field::fraction, r)[i], 1, rows);
         sums.failed += failed;
         sums.failed_cell = failed > 0 ? std::array<int, 3>{i, j, k} : sums.failed_cell;
       }

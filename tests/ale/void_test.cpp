@@ -1,6 +1,7 @@
 // Voids in cells: when they open and when they go.
 #include "ale/fill.hpp"
 #include "ale/phases.hpp"
+#include "ale/strength_update.hpp"
 #include "materials/library.hpp"
 
 #include <gtest/gtest.h>
@@ -125,6 +126,19 @@ TEST(Void, WhatWeighsNothingIsDroppedWhateverRoomItTakes) {
   EXPECT_EQ(block.materials[0].store.row(field::mass, r)[1], 0);
   EXPECT_GT(block.materials[0].store.row(field::mass, r)[0], 0);
   EXPECT_GT(scene.ledger.sliver_mass, 0);
+}
+
+TEST(Void, SliverOfMetalCarriesNoDeviator) {
+  Block<2> b = row_with_gap(0, 1 - 5e-5);
+  const int r = b.grid.cell_row(0, 0);
+  TileStore& copper = b.materials[0].store;
+  for (int i = 0; i < 2; ++i) {
+    copper.row(field::stress, r)[i] = 1e7;
+  }
+  ThreadPool pool(1);
+  pull_back_to_yield(b, pool);
+  EXPECT_EQ(copper.row(field::stress, r)[0], 1e7);
+  EXPECT_EQ(copper.row(field::stress, r)[1], 0);
 }
 
 } // namespace
