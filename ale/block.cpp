@@ -129,6 +129,7 @@ void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lin
     }
   }
   exchange_cells(g, b.volume);
+  b.target_volume = b.volume;
 }
 
 template <int Dim> void compute_node_mass(Block<Dim>& b, ThreadPool& pool) {

@@ -72,6 +72,7 @@ template <int Dim> struct Block {
   std::array<std::vector<double>, Dim> low_share;
 
   RowField volume, next_volume;
+  RowField target_volume; ///< on the target mesh
   RowField density, pressure, modulus, wave_speed; ///< of the whole cell
   std::array<RowField, stress_components<Dim>> stress; ///< empty unless a material has strength
   RowField shear, flow_stress; ///< of the cell: sum of fraction x shear modulus, x flow stress; likewise

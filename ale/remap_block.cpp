@@ -103,17 +103,11 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
                                        "target mesh; remap more often (motion.remap_every)",
                                        b.name, c[0], c[1], c[2], contents(b, c)));
   }
-  const Grid& g = b.grid;
-  parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
-    for (int s = begin; s < end; ++s) {
-      for (int q = 0; q < g.rows_per_slab(); ++q) {
-        const auto [j, k] = g.in_slab(s, q);
-        cell_volumes(b, b.position, j, k, b.volume.row(g.cell_row(j, k)));
-      }
-    }
-  });
+  b.volume.data() = b.target_volume.data(); // exactly, without the sweeps' round-off
   compute_node_mass(b, *scene.pool);
-  rest_massless_nodes(b);
+  if (b.void_index() >= 0) {
+    rest_massless_nodes(b);
+  }
   hold_outflow(b, leaving, scene.ledger);
   if (b.any_strength()) {
     pull_back_to_yield(b, *scene.pool);

@@ -173,6 +173,10 @@ template <int Dim> void fill_outside(Mesh<Dim>& m, int axis, int side, const Inf
 
 template <int Dim> void exchange_owner(Mesh<Dim>& m, ThreadPool& pool) {
   const Grid& g = m.grid;
+  if (m.material_count() == 1) {
+    std::fill(m.owner.begin(), m.owner.end(), static_cast<std::int8_t>(0));
+    return;
+  }
   parallel_ranges(pool, g.cell_rows(), [&](int begin, int end, int) {
     for (int r = begin; r < end; ++r) {
       std::int8_t* owner = m.owner_row(r);
