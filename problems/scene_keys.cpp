@@ -299,7 +299,7 @@ const SectionSpec& boundary() {
       "available yet.",
       {{.name = "type",
         .kind = choice,
-        .doc = "`free` carries the ambient pressure; `wall` is rigid and frictionless",
+        .doc = "`free` carries the ambient pressure, none where the scene starts with void; `wall` is rigid and frictionless",
         .required = true,
         .choices = {"symmetry", "free", "wall", "inflow", "outflow"}},
        {.name = "velocity",
