@@ -78,6 +78,8 @@ template <int Dim> struct Block {
   RowField shear, flow_stress; ///< of the cell: sum of fraction x shear modulus, x flow stress; likewise
   std::array<RowField, Dim> strain_rate, length, viscosity; ///< along each logical axis
   std::array<RowField, Dim> swept, mass_flux;               ///< faces, at the cell above them
+  /// Interface normal of each mixed cell of a row, left to right; blocks with strength (ale/traction).
+  std::vector<std::vector<std::array<double, 3>>> interface_normals;
   std::vector<std::int8_t> owner; ///< the only material of a cell, or mixed_cell
 
   remap::Scratch remap_scratch; ///< work arrays of the remap, nothing to remember

@@ -13,7 +13,8 @@ namespace ballast {
 
 inline constexpr int max_materials_in_cell = 16;
 
-/// One mixed cell, materials in the order of the block; pressures are gauge (Pa).
+/// One mixed cell, materials in the order of the block; pressures are gauge (Pa). For a material with strength the
+/// pressure is its normal traction p_k - n.s_k.n and the modulus K_k + 4/3 G_k (ale/traction).
 struct MixedCell {
   int count = 0;
   struct Part {

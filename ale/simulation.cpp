@@ -1,6 +1,7 @@
 #include "ale/simulation.hpp"
 
 #include "ale/strength_update.hpp"
+#include "ale/traction.hpp"
 
 #include <algorithm>
 
@@ -27,6 +28,7 @@ template <int Dim> void new_state(Scene<Dim>& scene, Block<Dim>& block, bool rem
   if (scene.numerics.spall) {
     scene.ledger.spalled_cells += open_voids(block, *scene.pool);
   }
+  update_traction(block, *scene.pool);
 }
 
 template <int Dim>
@@ -80,6 +82,7 @@ template <int Dim> void prepare(Scene<Dim>& scene) {
     }
     pull_back_to_yield(b, *scene.pool);
     update_state(b, *scene.pool);
+    update_traction(b, *scene.pool);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "ale/closure.hpp"
 #include "ale/lagrange_parts.hpp"
 #include "ale/strength_update.hpp"
+#include "ale/traction.hpp"
 #include "core/rows.hpp"
 
 #include <algorithm>
@@ -45,20 +46,8 @@ StressRows<Dim> stress_rows(MaterialSlot& slot, int r, int at, const WorkRows<Di
   return s;
 }
 
-/// s : grad(u) dt of one cell, 1/volume.
-double stress_power(const MaterialSlot& slot, int r, int i, const WorkRows<2>& w) {
-  const auto s = [&](int a) { return slot.store.row(field::stress + a, r)[i]; };
-  return s(0) * w.gradient[0][i] + s(1) * w.gradient[3][i] + s(2) * (w.gradient[1][i] + w.gradient[2][i]) -
-         (s(0) + s(1)) * w.gradient[4][i];
-}
-double stress_power(const MaterialSlot& slot, int r, int i, const WorkRows<3>& w) {
-  const auto s = [&](int a) { return slot.store.row(field::stress + a, r)[i]; };
-  return s(0) * w.gradient[0][i] + s(1) * w.gradient[4][i] - (s(0) + s(1)) * w.gradient[8][i] +
-         s(2) * (w.gradient[1][i] + w.gradient[3][i]) + s(3) * (w.gradient[5][i] + w.gradient[7][i]) +
-         s(4) * (w.gradient[2][i] + w.gradient[6][i]);
-}
-
-template <int Dim> MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume) {
+template <int Dim>
+MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume, const Eigen::Vector3d& n) {
   MixedCell cell;
   for (std::size_t m = 0; m < b.materials.size() && cell.count < max_materials_in_cell; ++m) {
     const MaterialSlot& slot = b.materials[m];
@@ -78,34 +67,81 @@ template <int Dim> MixedCell load_mixed(const Block<Dim>& b, int r, int i, doubl
     p.energy = slot.store.row(field::energy, r)[i];
     p.pressure = slot.store.row(slot.pressure_field(), r)[i];
     p.modulus = slot.store.row(slot.modulus_field(), r)[i];
+    if (slot.strength) {
+      p.pressure -= n.dot(deviator_of<Dim>(slot, r, i) * n);
+      p.modulus += 4.0 / 3.0 * shear_modulus(slot.material.strength);
+    }
     p.sound_speed = std::sqrt(p.modulus * p.volume / p.mass);
   }
   return cell;
 }
 
-/// Energy and volumes of one mixed cell. Returns the energy that void took or gave: what the materials
-/// received less what the forces gave, with the reference pressure's part of the void's volume change.
+/// Deviators and plastic strains of a mixed cell's parts from their own velocity gradients.
 template <int Dim>
-double advance_mixed(Scene<Dim>& scene, Block<Dim>& b, int r, int i, double dt, const WorkRows<Dim>& w) {
+void strain_parts(Block<Dim>& b,
+                  const MixedCell& cell,
+                  const Eigen::Vector3d& n,
+                  int r,
+                  int i,
+                  double dt,
+                  const double (*own)[9],
+                  int& failed) {
+  const auto each = [&](auto&& act) {
+    for (int k = 0; k < cell.count; ++k) {
+      MaterialSlot& slot = b.materials[static_cast<std::size_t>(cell.part[k].material)];
+      if (slot.strength && std::as_const(slot.store).row(field::fraction, r)[i] > 0) {
+        act(k, slot);
+      }
+    }
+  };
+  each([&](int k, MaterialSlot& slot) {
+    StressRows<Dim> rows = stress_rows<Dim>(slot, r, i, nullptr);
+    for (int q = 0; q < WorkRows<Dim>::gradient_components; ++q) {
+      rows.gradient[q] = own[k] + q;
+    }
+    failed += update_stress<Dim>(slot.material, dt, 1, rows);
+    relax_slivers(&std::as_const(slot.store).row(field::fraction, r)[i], 1, rows);
+  });
+  each([&](int, MaterialSlot& slot) {
+    cut_traction(b, slot, n, r, i);
+  }); // by the flow stresses that now are
+}
+
+/// Energy and volumes of one mixed cell. Returns the energy that void took or gave: what the
+/// materials received less what the forces gave, with the reference pressure's part of the void's
+/// volume change.
+template <int Dim>
+double advance_mixed(Scene<Dim>& scene,
+                     Block<Dim>& b,
+                     int r,
+                     int i,
+                     const Eigen::Vector3d& n,
+                     double dt,
+                     const WorkRows<Dim>& w,
+                     int& failed) {
   const double volume = b.volume.row(r)[i], next_volume = b.next_volume.row(r)[i];
-  MixedCell cell = load_mixed(b, r, i, volume);
-  const CellMotion motion{volume, next_volume - volume, w.swept_volume[i], w.compression[i],
-                          b.pressure.row(r)[i], b.modulus.row(r)[i], dt};
+  MixedCell cell = load_mixed(b, r, i, volume, n);
+  const CellPressure whole = mixed_pressure(cell, -b.reference_pressure);
+  const CellMotion motion{volume,
+                          next_volume - volume,
+                          w.swept_volume[i],
+                          w.compression[i],
+                          whole.pressure,
+                          whole.modulus,
+                          dt};
   share_volume_change(scene.numerics.closure, motion, cell);
-  // Pressure work is shared by the closure, deviator work by each material's own stress, the rest
-  // (viscosity, hourglass) by mass; the last share is what is left, so the sum is exact.
+  // The closure shares the normal traction's work, the rest of the stress works on each material's
+  // own strain (ale/traction), what is left (viscosity, hourglass) goes by mass: the sum is exact.
   const double p_half = motion.pressure - motion.modulus * motion.compression;
   double rest = w.work[i] + p_half * motion.swept_volume;
-  double deviator[max_materials_in_cell] = {}, mass = 0, pressure_work = 0;
+  double deviator[max_materials_in_cell] = {}, own[max_materials_in_cell][9], mass = 0;
+  if (b.any_strength()) {
+    share_strain(b, cell, n, r, i, gradient_of(w, i), motion.compression, own, deviator);
+  }
   for (int k = 0; k < cell.count; ++k) {
     const MixedCell::Part& p = cell.part[k];
-    const MaterialSlot& slot = b.materials[static_cast<std::size_t>(p.material)];
-    if (slot.strength) {
-      deviator[k] = p.volume * (1 + motion.compression) * stress_power(slot, r, i, w);
-      rest -= deviator[k];
-    }
+    rest -= deviator[k];
     mass += p.mass;
-    pressure_work += p.work;
   }
   double taken = 0, sum = 0, void_change = 0;
   int largest = 0;
@@ -115,7 +151,8 @@ double advance_mixed(Scene<Dim>& scene, Block<Dim>& b, int r, int i, double dt, 
     const double part_volume = p.volume + p.volume_change;
     slot.store.row(field::fraction, r)[i] = std::max(0.0, part_volume / next_volume);
     sum += slot.store.row(field::fraction, r)[i];
-    largest = part_volume > cell.part[largest].volume + cell.part[largest].volume_change ? k : largest;
+    largest =
+        part_volume > cell.part[largest].volume + cell.part[largest].volume_change ? k : largest;
     if (p.is_void) {
       void_change = p.volume_change;
       continue;
@@ -124,18 +161,22 @@ double advance_mixed(Scene<Dim>& scene, Block<Dim>& b, int r, int i, double dt, 
     slot.store.row(field::energy, r)[i] += (work - b.reference_pressure * p.volume_change) / p.mass;
     taken += work;
   }
-  double& most = b.materials[static_cast<std::size_t>(cell.part[largest].material)].store.row(field::fraction, r)[i];
+  double& most = b.materials[static_cast<std::size_t>(cell.part[largest].material)].store.row(
+      field::fraction, r)[i];
   most += 1 - sum;
+  strain_parts<Dim>(b, cell, n, r, i, dt, own, failed);
   return taken - w.work[i] + b.reference_pressure * void_change;
 }
 
 template <int Dim>
-void advance_pure(Block<Dim>& b, int r, const RowRuns::Run& run, double dt, const WorkRows<Dim>& w, int& failed) {
+void advance_pure(
+    Block<Dim>& b, int r, const RowRuns::Run& run, double dt, const WorkRows<Dim>& w, int& failed) {
   MaterialSlot& slot = b.materials[static_cast<std::size_t>(run.material)];
   if (slot.is_void) {
     return;
   }
-  const double *m = slot.store.row(field::mass, r), *v = b.volume.row(r), *next = b.next_volume.row(r);
+  const double *m = slot.store.row(field::mass, r), *v = b.volume.row(r),
+               *next = b.next_volume.row(r);
   double* e = slot.store.row(field::energy, r);
   const double* work = w.work;
   const double p_ref = b.reference_pressure;
@@ -144,12 +185,19 @@ void advance_pure(Block<Dim>& b, int r, const RowRuns::Run& run, double dt, cons
     e[i] += (work[i] - p_ref * (next[i] - v[i])) / m[i];
   }
   if (slot.strength) {
-    failed += update_stress<Dim>(slot.material, dt, run.end - run.begin, stress_rows<Dim>(slot, r, run.begin, &w));
+    failed += update_stress<Dim>(
+        slot.material, dt, run.end - run.begin, stress_rows<Dim>(slot, r, run.begin, &w));
   }
 }
 
 template <int Dim>
-void advance_row(Scene<Dim>& scene, Block<Dim>& b, int j, int k, double dt, WorkBuffer<Dim>& buffer, StepSums<Dim>& sums) {
+void advance_row(Scene<Dim>& scene,
+                 Block<Dim>& b,
+                 int j,
+                 int k,
+                 double dt,
+                 WorkBuffer<Dim>& buffer,
+                 StepSums<Dim>& sums) {
   const Grid& g = b.grid;
   const int r = g.cell_row(j, k);
   const double* next[Dim][ForceRows<Dim>::lines];
@@ -158,31 +206,37 @@ void advance_row(Scene<Dim>& scene, Block<Dim>& b, int j, int k, double dt, Work
       next[d][l] = b.next_velocity[d].row(g.node_row(j + (l & 1), k + (l >> 1)));
     }
   }
-  corner_work<Dim>(b, ForceRows<Dim>(b, j, k), next, force_coefficients(scene.numerics, dt), g.cells[0], buffer.rows);
+  corner_work<Dim>(b,
+                   ForceRows<Dim>(b, j, k),
+                   next,
+                   force_coefficients(scene.numerics, dt),
+                   g.cells[0],
+                   buffer.rows);
   buffer.runs.scan(b.owner_row(r), g.cells[0]);
   for (const RowRuns::Run& run : buffer.runs.pure) {
     if (b.materials[static_cast<std::size_t>(run.material)].is_void) {
       for (int i = run.begin; i < run.end; ++i) {
-        sums.void_work += b.reference_pressure * (b.next_volume.row(r)[i] - b.volume.row(r)[i]) - buffer.rows.work[i];
+        sums.void_work += b.reference_pressure * (b.next_volume.row(r)[i] - b.volume.row(r)[i]) -
+                          buffer.rows.work[i];
       }
     }
     const int before = sums.failed;
     advance_pure(b, r, run, dt, buffer.rows, sums.failed);
-    sums.failed_cell = sums.failed > before ? std::array<int, 3>{run.begin, j, k} : sums.failed_cell;
+    sums.failed_cell =
+        sums.failed > before ? std::array<int, 3>{run.begin, j, k} : sums.failed_cell;
   }
+  std::size_t q = 0;
   for (const int i : buffer.runs.mixed) {
-    sums.void_work += advance_mixed(scene, b, r, i, dt, buffer.rows);
-    for (MaterialSlot& slot : b.materials) {
-      if (slot.strength && std::as_const(slot.store).row(field::fraction, r)[i] > 0) {
-        const StressRows<Dim> rows = stress_rows<Dim>(slot, r, i, &buffer.rows);
-        const int failed = update_stress<Dim>(slot.material, dt, 1, rows);
-        relax_slivers(&std::as_const(slot.store).row(field::fraction, r)[i], 1, rows);
-        sums.failed += failed;
-        sums.failed_cell = failed > 0 ? std::array<int, 3>{i, j, k} : sums.failed_cell;
-      }
-    }
+    const int before = sums.failed;
+    const Eigen::Vector3d n =
+        b.any_strength()
+            ? Eigen::Vector3d(b.interface_normals[static_cast<std::size_t>(r)][q++].data())
+            : Eigen::Vector3d::Zero();
+    sums.void_work += advance_mixed(scene, b, r, i, n, dt, buffer.rows, sums.failed);
+    sums.failed_cell = sums.failed > before ? std::array<int, 3>{i, j, k} : sums.failed_cell;
   }
-  sums.volume_change += lane_sum(b.next_volume.row(r), g.cells[0]) - lane_sum(b.volume.row(r), g.cells[0]);
+  sums.volume_change +=
+      lane_sum(b.next_volume.row(r), g.cells[0]) - lane_sum(b.volume.row(r), g.cells[0]);
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "ale/traction.hpp"
 #include "problems/run_checkpoint.hpp"
 
 #include "core/error.hpp"
@@ -144,6 +145,7 @@ void read_checkpoint(const std::filesystem::path& path, Scene<Dim>& scene, Clock
       }
     }
     update_state(b, *scene.pool);
+    update_traction(b, *scene.pool);
   }
 }
 

@@ -11,16 +11,19 @@ namespace ballast {
 namespace {
 
 template <int Dim>
-double node_mean(const Block<Dim>& b, const std::array<RowField, Dim>& f, std::size_t d, int i, int j, int k) {
+double node_mean(
+    const Block<Dim>& b, const std::array<RowField, Dim>& f, std::size_t d, int i, int j, int k) {
   double sum = 0;
   for (int corner = 0; corner < (1 << Dim); ++corner) {
-    sum += f[d].row(b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)))[i + (corner & 1)];
+    sum +=
+        f[d].row(b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)))[i + (corner & 1)];
   }
   return sum / (1 << Dim);
 }
 
 /// Low and high position of a cell along an axis (means of its faces' nodes).
-template <int Dim> std::array<double, 2> cell_range(const Block<Dim>& b, int axis, int i, int j, int k) {
+template <int Dim>
+std::array<double, 2> cell_range(const Block<Dim>& b, int axis, int i, int j, int k) {
   std::array<double, 2> x = {0, 0};
   for (int corner = 0; corner < (1 << Dim); ++corner) {
     const double at = b.position[static_cast<std::size_t>(axis)].row(
@@ -30,33 +33,71 @@ template <int Dim> std::array<double, 2> cell_range(const Block<Dim>& b, int axi
   return x;
 }
 
+/// What the slots hold of a cell; nothing outside the block.
+template <int Dim>
+double
+fraction_of(const Block<Dim>& b, const std::vector<int>& slots, const std::array<int, 3>& cell) {
+  double f = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    if (cell[d] < 0 || cell[d] >= b.grid.cells[d]) {
+      return 0;
+    }
+  }
+  for (const int s : slots) {
+    f += b.materials[static_cast<std::size_t>(s)].store.row(
+        field::fraction, b.grid.cell_row(cell[1], cell[2]))[cell[0]];
+  }
+  return f;
+}
+
+/// How far what the slots hold of a cell (`f`, half of it or more) reaches along an axis (side -1
+/// or 1), with what is in the next cell if that is less than half full: continuous as a surface
+/// passes from cell to cell.
+template <int Dim>
+double reach(const Block<Dim>& b,
+             const std::vector<int>& slots,
+             int axis,
+             int side,
+             std::array<int, 3> cell,
+             double f) {
+  const auto x = cell_range(b, axis, cell[0], cell[1], cell[2]);
+  const std::size_t at = side > 0 ? 0 : 1;
+  double end = x[at] + f * (x[1 - at] - x[at]);
+  cell[static_cast<std::size_t>(axis)] += side;
+  const double beyond = fraction_of(b, slots, cell);
+  if (beyond > 0 && beyond < 0.5) {
+    const auto y = cell_range(b, axis, cell[0], cell[1], cell[2]);
+    end += beyond * (y[1 - at] - y[at]);
+  }
+  return end;
+}
+
 } // namespace
 
 template <int Dim>
-BodyMeasure measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, double direction) {
+BodyMeasure
+measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, double direction) {
   BodyMeasure m;
   double low = std::numeric_limits<double>::infinity(), high = -low, momentum = 0;
   for_each_cell(b, [&](int i, int j, int k) {
     const int r = b.grid.cell_row(j, k);
-    double mass = 0, f = 0;
+    double mass = 0;
     for (const int s : slots) {
-      const MaterialSlot& slot = b.materials[static_cast<std::size_t>(s)];
-      mass += slot.store.row(field::mass, r)[i];
-      f += slot.store.row(field::fraction, r)[i];
+      mass += b.materials[static_cast<std::size_t>(s)].store.row(field::mass, r)[i];
     }
+    const std::array<int, 3> cell = {i, j, k};
+    const double f = fraction_of(b, slots, cell);
     if (f <= 0) {
       return;
     }
     m.mass += mass;
     momentum += mass * node_mean<Dim>(b, b.velocity, static_cast<std::size_t>(axis), i, j, k);
     if (f >= 0.5) {
-      const auto x = cell_range(b, axis, i, j, k);
-      low = std::min(low, x[1] - f * (x[1] - x[0]));
-      high = std::max(high, x[0] + f * (x[1] - x[0]));
+      low = std::min(low, reach(b, slots, axis, -1, cell, f));
+      high = std::max(high, reach(b, slots, axis, 1, cell, f));
       for (int other = 0; other < Dim; ++other) {
         if (other != axis) {
-          const auto y = cell_range(b, other, i, j, k);
-          m.radius = std::max(m.radius, std::abs(y[0] + f * (y[1] - y[0])));
+          m.radius = std::max(m.radius, std::abs(reach(b, slots, other, 1, cell, f)));
         }
       }
     }
@@ -68,7 +109,8 @@ BodyMeasure measure_body(const Block<Dim>& b, const std::vector<int>& slots, int
 }
 
 template <int Dim>
-double cavity_radius(const Block<Dim>& b, int target, int axis, double from, double direction, double until) {
+double cavity_radius(
+    const Block<Dim>& b, int target, int axis, double from, double direction, double until) {
   const Grid& g = b.grid;
   const TileStore& store = b.materials[static_cast<std::size_t>(target)].store;
   double largest = 0;
@@ -98,7 +140,8 @@ double cavity_radius(const Block<Dim>& b, int target, int axis, double from, dou
   return largest;
 }
 
-template <int Dim> std::array<int, 3> find_cell(const Block<Dim>& b, const std::array<double, 3>& at) {
+template <int Dim>
+std::array<int, 3> find_cell(const Block<Dim>& b, const std::array<double, 3>& at) {
   const Grid& g = b.grid;
   std::array<int, 3> cell = {0, 0, 0};
   if (b.motion.policy == MotionPolicy::eulerian) {
@@ -132,7 +175,8 @@ template <int Dim> std::array<int, 3> find_cell(const Block<Dim>& b, const std::
 }
 
 template <int Dim>
-std::array<double, 3> velocity_at(const Block<Dim>& b, const std::array<int, 3>& cell, const std::array<double, 3>& at) {
+std::array<double, 3>
+velocity_at(const Block<Dim>& b, const std::array<int, 3>& cell, const std::array<double, 3>& at) {
   std::array<double, 3> u{};
   double part[3] = {};
   for (int d = 0; d < Dim; ++d) {
@@ -158,7 +202,9 @@ template double cavity_radius<2>(const Block<2>&, int, int, double, double, doub
 template double cavity_radius<3>(const Block<3>&, int, int, double, double, double);
 template std::array<int, 3> find_cell<2>(const Block<2>&, const std::array<double, 3>&);
 template std::array<int, 3> find_cell<3>(const Block<3>&, const std::array<double, 3>&);
-template std::array<double, 3> velocity_at<2>(const Block<2>&, const std::array<int, 3>&, const std::array<double, 3>&);
-template std::array<double, 3> velocity_at<3>(const Block<3>&, const std::array<int, 3>&, const std::array<double, 3>&);
+template std::array<double, 3>
+velocity_at<2>(const Block<2>&, const std::array<int, 3>&, const std::array<double, 3>&);
+template std::array<double, 3>
+velocity_at<3>(const Block<3>&, const std::array<int, 3>&, const std::array<double, 3>&);
 
 } // namespace ballast
