@@ -10,8 +10,17 @@ namespace ballast {
 
 namespace {
 
-/// The volume fractions that interfaces in the section depend on, ghosts mirrored (a block's own ghosts
-/// are only filled for a sweep): all in 2D, the layers j = 0 and 1 in 3D.
+/// The material that fills what is beyond a side, or -1 where that mirrors the block; as a remap has it.
+template <int Dim> int material_beyond(const Block<Dim>& b, int axis, int side) {
+  const BoundarySide& s = b.boundary.at(axis, side);
+  if (s.kind == BoundaryKind::inflow) {
+    return s.inflow.material;
+  }
+  return s.kind == BoundaryKind::free && b.reference_pressure == 0 ? b.void_index() : -1;
+}
+
+/// The volume fractions that interfaces in the section depend on: all in 2D, the layers j = 0 and 1 in 3D.
+/// Ghosts are filled here: a block's own are only up to date in a sweep.
 template <int Dim> struct Fractions {
   Grid grid;
   std::vector<TileStore> stores;
@@ -33,8 +42,29 @@ template <int Dim> struct Fractions {
       }
       mirror_cells(grid, {1, 1, 1}, row);
     }
+    for (int axis = 0; axis < Dim; ++axis) {
+      for (int side = 0; side < 2; ++side) {
+        if (const int material = material_beyond(b, axis, side); material >= 0 && (Dim == 2 || axis != 1 || side == 0)) {
+          fill_beyond(axis, side, material);
+        }
+      }
+    }
     for (const TileStore& store : stores) {
       views.push_back(&store);
+    }
+  }
+
+  void fill_beyond(int axis, int side, int material) {
+    const int n = grid.cells[static_cast<std::size_t>(axis)];
+    for (int k = -grid.ghost[2]; k < grid.cells[2] + grid.ghost[2]; ++k) {
+      for (int j = -grid.ghost[1]; j < grid.cells[1] + grid.ghost[1]; ++j) {
+        for (int i = -grid.ghost[0]; i < grid.cells[0] + grid.ghost[0]; ++i) {
+          const int at = std::array{i, j, k}[static_cast<std::size_t>(axis)];
+          for (std::size_t m = 0; m < stores.size() && (side == 0 ? at < 0 : at >= n); ++m) {
+            stores[m].row(0, grid.cell_row(j, k))[i] = static_cast<int>(m) == material ? 1.0 : 0.0;
+          }
+        }
+      }
     }
   }
 };

@@ -2,7 +2,7 @@
 // block the lower face along j of the cells with j = 0, which with symmetry in y is the plane y = 0.
 //
 // A mixed cell's interfaces are those of the remap (onion-skin planes); of a 3D cell's planes the lines
-// are drawn where they meet that face. Beyond every side the fractions are mirrored.
+// are drawn where they meet that face.
 #pragma once
 
 #include "ale/scene.hpp"
