@@ -27,11 +27,11 @@ shape = { sphere = { centre = ["0 mm", "0 mm", "8.2 mm"], radius = "5 mm" } }
 [[body]]
 name = "block"
 material = "muscle"
-shape = { box = { from = ["0 mm", "0 mm", "-3 mm"], to = ["6.3 mm", "6 mm", "1.6 mm"] } }
+shape = { box = { from = ["0 mm", "0 mm", "-6 mm"], to = ["6.3 mm", "6 mm", "1.6 mm"] } }
 [mesh]
 x = { from = "0 mm", to = "7 mm", size = "1 mm" }
 y = { from = "0 mm", to = "8 mm", size = "1 mm" }
-z = { from = "-3 mm", to = "15 mm", size = "1 mm" }
+z = { from = "-6 mm", to = "15 mm", size = "1 mm" }
 )";
 
 Scene<3> make_scene() {
@@ -79,8 +79,8 @@ TEST(SectionPolygons, FlatSidesEndWhereTheBodyEnds) {
   const int muscle = index_of(b, "muscle");
   int side = 0, top = 0;
   const double mixed = visit_corners(section_polygons(b, scene.numerics.normal), muscle, [&](double x, double z) {
-    // Away from the block's edge, which no plane can follow; the symmetry plane x = 0 included.
-    if (z < -0.5) {
+    // Away from the block's edges, which no plane can follow; the symmetry plane x = 0 included.
+    if (std::abs(z + 2.5) < 2) {
       EXPECT_TRUE(std::abs(x - 6.3) < 1e-9 || std::abs(x - 6) < 1e-9) << x << ' ' << z;
       ++side;
     }
@@ -91,7 +91,7 @@ TEST(SectionPolygons, FlatSidesEndWhereTheBodyEnds) {
   });
   EXPECT_GT(side, 8);
   EXPECT_GT(top, 16);
-  EXPECT_NEAR(mixed + pure_area(b, muscle), 6.3 * 4.6, 0.05);
+  EXPECT_NEAR(mixed + pure_area(b, muscle), 6.3 * 7.6, 0.1);
 }
 
 TEST(SectionPolygons, BallIsRound) {
@@ -116,9 +116,9 @@ TEST(SectionPolygons, DumpLeavesTheSectionsMixedCellsToThem) {
     return static_cast<int>(dump.cell_arrays.at(0).values.at(static_cast<std::size_t>((k * 8 + j) * 7 + i)));
   };
   ASSERT_EQ(dump.cell_arrays[0].name, "material");
-  EXPECT_EQ(material(2, 0, 4), -1);                    // 0.6 muscle, in the section
-  EXPECT_EQ(material(2, 1, 4), index_of(b, "muscle")); // behind it
-  EXPECT_EQ(material(2, 0, 3), index_of(b, "muscle")); // pure
+  EXPECT_EQ(material(2, 0, 7), -1);                    // 0.6 muscle, in the section
+  EXPECT_EQ(material(2, 1, 7), index_of(b, "muscle")); // behind it
+  EXPECT_EQ(material(2, 0, 6), index_of(b, "muscle")); // pure
 }
 
 } // namespace
