@@ -89,7 +89,8 @@ void add_polygons(vtkPolyData* set, bool solid, SectionBlock& block) {
     for (vtkIdType v = 0; v < nodes->GetNumberOfIds(); ++v) {
       double p[3];
       set->GetPoint(nodes->GetId(v), p);
-      polygon.corners.push_back({static_cast<float>(p[0]), static_cast<float>(solid ? p[2] : p[1])});
+      polygon.corners.push_back(
+          {static_cast<float>(p[0]), static_cast<float>(solid ? p[2] : p[1])});
     }
   }
 }
@@ -134,7 +135,8 @@ Section read_section(const std::filesystem::path& vtm, double time) {
                                    : nullptr;
   if (!root || root->GetNumberOfBlocks() == 0)
     throw Error(fmt::format("{}: holds no readable block", vtm.string()));
-  Section section{.time = time, .geometry = {}, .mirrored = false, .material_names = {}, .blocks = {}};
+  Section section{
+      .time = time, .geometry = {}, .mirrored = false, .material_names = {}, .blocks = {}};
   for (unsigned int b = 0; b < root->GetNumberOfBlocks(); ++b) {
     SectionBlock& block = section.blocks.emplace_back();
     if (root->HasMetaData(b) && root->GetMetaData(b)->Has(vtkCompositeDataSet::NAME()))

@@ -35,7 +35,7 @@ struct SectionBlock {
 
 struct Section {
   double time = 0;
-  std::string geometry; // planar | axisymmetric | 3d
+  std::string geometry;  // planar | axisymmetric | 3d
   bool mirrored = false; // the other half is the image at x = 0: axisymmetric, or 3D symmetric in x
   std::vector<std::string> material_names;
   std::vector<SectionBlock> blocks;

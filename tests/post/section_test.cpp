@@ -9,7 +9,8 @@
 namespace ballast::post {
 namespace {
 
-/// Two by one by one cells of 1 m from x = 0: material 0, then void with a polygon of material 1 up to x = 1.5 m.
+/// Two by one by one cells of 1 m from x = 0: material 0, then void with a polygon of material 1 up
+/// to x = 1.5 m.
 io::GridDump two_cells() {
   io::GridDump dump;
   dump.block = "mesh";
