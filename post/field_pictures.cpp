@@ -22,13 +22,13 @@ struct Panel {
 /// What all pictures of one view share.
 struct Series {
   std::string title, geometry;
+  bool mirrored;
   std::vector<std::string> material_names;
   std::vector<Colour> material_colours;
   std::vector<int> materials; // those that occur
   std::vector<Panel> panels;
   ScaledUnit time_unit;
   int time_decimals;
-  bool mirrored() const { return geometry == "axisymmetric"; }
   const std::string& name(int m) const { return material_names[static_cast<std::size_t>(m)]; }
   Colour colour(int m) const { return material_colours[static_cast<std::size_t>(m)]; }
 };
@@ -182,7 +182,7 @@ void draw_panel(Canvas& canvas,
   PlotArea in_mm = area;
   in_mm.x = {area.x.low * 1e3, area.x.high * 1e3};
   in_mm.y = {area.y.low * 1e3, area.y.high * 1e3};
-  const bool axisymmetric = series.mirrored(), solid = series.geometry == "3d";
+  const bool axisymmetric = series.geometry == "axisymmetric", solid = series.geometry == "3d";
   draw_axes(canvas,
             in_mm,
             axisymmetric ? "r [mm]" : "x [mm]",
@@ -205,7 +205,7 @@ void draw_picture(const Section& section,
   const Layout layout = make_layout(series, view);
   Canvas canvas(layout.width, layout.height);
   PlotArea area{layout.box(0), view.x, view.y};
-  SectionRaster raster = sample(section, area, series.mirrored());
+  SectionRaster raster = sample(section, area, series.mirrored);
   const std::vector<bool> interfaces = interface_samples(raster);
   for (std::size_t k = 0; k < series.panels.size(); ++k) {
     area.box = layout.box(k);
@@ -224,6 +224,7 @@ void draw_picture(const Section& section,
 Series make_series(const std::vector<Section>& sections, const std::string& title) {
   Series series{.title = title,
                 .geometry = sections.front().geometry,
+                .mirrored = sections.front().mirrored,
                 .material_names = {},
                 .material_colours = {},
                 .materials = {},
@@ -269,10 +270,10 @@ int draw_field_pictures(const std::vector<Section>& sections,
     log << "no picture of the fields: the dumps hold none of material, pressure, speed\n";
     return 0;
   }
-  const View whole = whole_view(sections, series.mirrored());
+  const View whole = whole_view(sections, series.mirrored);
   std::optional<View> close;
   if (series.panels.back().field == Field::speed)
-    close = close_up(sections, whole, series.mirrored(), series.panels.back().scale->high);
+    close = close_up(sections, whole, series.mirrored, series.panels.back().scale->high);
   int pictures = 0;
   const auto draw =
       [&](const Section& section, const View& view, const char* kind, std::size_t number) {

@@ -1,5 +1,6 @@
 #include "post/section.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 #include <vtkCellData.h>
@@ -76,7 +77,7 @@ void add_cells(vtkStructuredGrid* grid, SectionBlock& block) {
     }
 }
 
-void add_polygons(vtkPolyData* set, SectionBlock& block) {
+void add_polygons(vtkPolyData* set, bool solid, SectionBlock& block) {
   vtkDataArray* material = set->GetCellData()->GetArray("material");
   if (!material)
     return;
@@ -88,7 +89,8 @@ void add_polygons(vtkPolyData* set, SectionBlock& block) {
     for (vtkIdType v = 0; v < nodes->GetNumberOfIds(); ++v) {
       double p[3];
       set->GetPoint(nodes->GetId(v), p);
-      polygon.corners.push_back({static_cast<float>(p[0]), static_cast<float>(p[1])});
+      polygon.corners.push_back(
+          {static_cast<float>(p[0]), static_cast<float>(solid ? p[2] : p[1])});
     }
   }
 }
@@ -97,6 +99,10 @@ void add_facts(vtkDataSet* set, Section& section) {
   const auto geometry = strings(set, "geometry");
   if (section.geometry.empty() && !geometry.empty())
     section.geometry = geometry.front();
+  const auto symmetry = strings(set, "symmetry");
+  if (section.geometry == "axisymmetric" ||
+      std::find(symmetry.begin(), symmetry.end(), "x") != symmetry.end())
+    section.mirrored = true;
   const auto names = strings(set, "material_names");
   if (names.size() > section.material_names.size())
     section.material_names = names;
@@ -108,8 +114,7 @@ void add_data(vtkDataObject* data, Section& section, SectionBlock& block) {
     add_cells(grid, block);
   } else if (auto* polygons = vtkPolyData::SafeDownCast(data)) {
     add_facts(polygons, section);
-    if (section.geometry != "3d")
-      add_polygons(polygons, block);
+    add_polygons(polygons, section.geometry == "3d", block);
   } else if (auto* inner = vtkMultiBlockDataSet::SafeDownCast(data)) {
     for (unsigned int k = 0; k < inner->GetNumberOfBlocks(); ++k)
       add_data(inner->GetBlock(k), section, block);
@@ -130,7 +135,8 @@ Section read_section(const std::filesystem::path& vtm, double time) {
                                    : nullptr;
   if (!root || root->GetNumberOfBlocks() == 0)
     throw Error(fmt::format("{}: holds no readable block", vtm.string()));
-  Section section{.time = time, .geometry = {}, .material_names = {}, .blocks = {}};
+  Section section{
+      .time = time, .geometry = {}, .mirrored = false, .material_names = {}, .blocks = {}};
   for (unsigned int b = 0; b < root->GetNumberOfBlocks(); ++b) {
     SectionBlock& block = section.blocks.emplace_back();
     if (root->HasMetaData(b) && root->GetMetaData(b)->Has(vtkCompositeDataSet::NAME()))

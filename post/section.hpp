@@ -1,5 +1,6 @@
 // Section: what a picture shows of one dump. 2D blocks as they are (x, y) or (r, z); of 3D blocks
-// the face of the lowest j (the plane y = 0), drawn as (x, z).
+// the face of the lowest j (the plane y = 0), drawn as (x, z): cell values from the layer above it,
+// interfaces where the reconstructed planes of its mixed cells meet it.
 #pragma once
 
 #include <array>
@@ -34,7 +35,8 @@ struct SectionBlock {
 
 struct Section {
   double time = 0;
-  std::string geometry; // planar | axisymmetric | 3d
+  std::string geometry;  // planar | axisymmetric | 3d
+  bool mirrored = false; // the other half is the image at x = 0: axisymmetric, or 3D symmetric in x
   std::vector<std::string> material_names;
   std::vector<SectionBlock> blocks;
 };

@@ -1,8 +1,7 @@
 #include "problems/run_dump.hpp"
 
 #include "ale/fill.hpp"
-#include "remap/polygon.hpp"
-#include "remap/reconstruct.hpp"
+#include "problems/section_polygons.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -67,13 +66,13 @@ private:
   std::size_t cells_;
 };
 
-/// -1: void, or mixed with void (polygons cover the rest).
+/// -1: void, or mixed with void where polygons cover the rest.
 template <int Dim> int drawn_material(const Block<Dim>& b, int r, int i) {
   const int owner = b.owner_row(r)[i], hole = b.void_index();
   if (owner >= 0) {
     return owner == hole ? -1 : owner;
   }
-  if (hole >= 0 && Dim == 2 && b.materials.back().store.row(field::fraction, r)[i] > 0) {
+  if (hole >= 0 && in_section<Dim>(b.grid, r) && b.materials.back().store.row(field::fraction, r)[i] > 0) {
     return -1;
   }
   int best = -1;
@@ -88,40 +87,17 @@ template <int Dim> int drawn_material(const Block<Dim>& b, int r, int i) {
   return best;
 }
 
-void add_polygons(const Block<2>& b, remap::NormalMethod normal, io::GridDump& dump) {
-  std::vector<const TileStore*> stores;
-  for (const MaterialSlot& slot : b.materials) {
-    stores.push_back(&slot.store);
+/// Axes at whose 0 the block begins and is mirrored.
+std::vector<std::string> symmetry_of(const Block<3>& b) {
+  std::vector<std::string> axes;
+  for (int d = 0; d < 3; ++d) {
+    const double begin = b.position[static_cast<std::size_t>(d)].row(b.grid.node_row(0, 0))[0];
+    if (b.boundary.at(d, 0).kind == BoundaryKind::symmetry && begin == 0) {
+      axes.push_back(std::string(1, "xyz"[d]));
+    }
   }
-  const int hole = b.void_index();
-  for_each_cell(b, [&](int i, int j, int) {
-    const int r = b.grid.cell_row(j, 0);
-    if (b.owner_row(r)[i] >= 0) {
-      return;
-    }
-    const auto cell = remap::reconstruct_cell<2>(b.grid, stores, normal, r, i);
-    const int n0 = b.grid.node_row(j, 0), n1 = b.grid.node_row(j + 1, 0);
-    const auto at = [&](int n, int q) { return remap::Point<2>{b.position[0].row(n)[q], b.position[1].row(n)[q]}; };
-    const remap::Quad quad = {at(n0, i), at(n0, i + 1), at(n1, i + 1), at(n1, i)};
-    for (int q = 0; q < cell.count; ++q) {
-      if (cell.present[q] == hole) {
-        continue;
-      }
-      const auto polygon = remap::material_polygon(quad, q > 0 ? &cell.planes[q - 1] : nullptr, q + 1 < cell.count ? &cell.planes[q] : nullptr);
-      if (polygon.count < 3) {
-        continue;
-      }
-      for (int p = 0; p < polygon.count; ++p) {
-        const auto& point = polygon.points[static_cast<std::size_t>(p)];
-        dump.material_polygons.points.insert(dump.material_polygons.points.end(), {point[0], point[1], 0.0});
-      }
-      dump.material_polygons.sizes.push_back(polygon.count);
-      dump.material_polygons.material.push_back(cell.present[q]);
-    }
-  });
+  return axes;
 }
-
-void add_polygons(const Block<3>&, remap::NormalMethod, io::GridDump&) {}
 
 } // namespace
 
@@ -130,6 +106,9 @@ io::GridDump dump_block(const Block<Dim>& b, remap::NormalMethod normal, const s
   io::GridDump dump;
   dump.block = b.name;
   dump.geometry = Dim == 3 ? "3d" : b.axisymmetric ? "axisymmetric" : "planar";
+  if constexpr (Dim == 3) {
+    dump.symmetry = symmetry_of(b);
+  }
   dump.cells = {b.grid.cells[0], b.grid.cells[1], Dim == 3 ? b.grid.cells[2] : 0};
   Dumper<Dim> out(b, dump);
   out.points();
@@ -202,7 +181,7 @@ io::GridDump dump_block(const Block<Dim>& b, remap::NormalMethod normal, const s
       return q;
     });
   }
-  add_polygons(b, normal, dump);
+  dump.material_polygons = section_polygons(b, normal);
   return dump;
 }
 

@@ -65,9 +65,11 @@ void add_strings(vtkFieldData* data, const char* name, const std::vector<std::st
   data->AddArray(array);
 }
 
-/// What a reader must know beside the arrays: geometry, time and the materials' names.
+/// What a reader must know beside the arrays: geometry, symmetry, time and the materials' names.
 void add_facts(vtkDataSet* set, const GridDump& dump, double time) {
   add_strings(set->GetFieldData(), "geometry", {dump.geometry});
+  if (!dump.symmetry.empty())
+    add_strings(set->GetFieldData(), "symmetry", dump.symmetry);
   if (!dump.material_names.empty())
     add_strings(set->GetFieldData(), "material_names", dump.material_names);
   vtkNew<vtkDoubleArray> when;

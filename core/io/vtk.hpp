@@ -21,7 +21,8 @@ struct GridDump {
     int components = 1;
     std::vector<float> values; // entity by entity, components fastest
   };
-  /// The parts of mixed cells as polygons: in 2D (x, y, 0), RZ (r, z, 0).
+  /// The parts of mixed cells as polygons: in 2D (x, y, 0), RZ (r, z, 0); in 3D only those of the
+  /// section that pictures show, the lower face along j of the cells with j = 0.
   struct Polygons {
     std::vector<double> points; // 3 per vertex, polygon by polygon
     std::vector<int> sizes;     // vertices of each polygon
@@ -31,8 +32,10 @@ struct GridDump {
 
   std::string block;
   std::string geometry = "planar"; // planar | axisymmetric | 3d
-  std::array<int, 3> cells{};      // cells[2] = 0 in 2D
-  std::vector<double> points;      // 3 per node, i fastest
+  std::vector<std::string>
+      symmetry;               // axes (x, y, z) at whose 0 the rest is the mirror image; 3D only
+  std::array<int, 3> cells{}; // cells[2] = 0 in 2D
+  std::vector<double> points; // 3 per node, i fastest
   std::vector<Array> cell_arrays, point_arrays;
   Polygons material_polygons;              // may be empty
   std::vector<std::string> material_names; // legend: names[material]
