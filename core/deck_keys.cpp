@@ -1,3 +1,4 @@
+// Reads and checks the values of a section by its key table.
 #include "core/deck_keys.hpp"
 
 #include <algorithm>
@@ -6,22 +7,6 @@
 
 namespace ballast {
 namespace {
-
-std::string range_text(const KeyRange& range, Dimension dimension) {
-  const std::string unit(si_unit(dimension));
-  const auto with_unit = [&](double v) {
-    return unit.empty() ? fmt::format("{:g}", v) : fmt::format("{:g} {}", v, unit);
-  };
-  const bool lo = std::isfinite(range.lo), hi = std::isfinite(range.hi);
-  if (lo && hi) {
-    return fmt::format(
-        "{} {} to {}", range.lo_open ? "above" : "from", with_unit(range.lo), with_unit(range.hi));
-  }
-  if (lo) {
-    return fmt::format("{} {}", range.lo_open ? "above" : "at least", with_unit(range.lo));
-  }
-  return hi ? fmt::format("at most {}", with_unit(range.hi)) : std::string{};
-}
 
 /// "a length, with a unit (m, mm, ...) or a bare number in m; above 0 m"
 std::string wanted(Dimension dimension, const KeyRange& range) {
@@ -224,12 +209,6 @@ std::string one_of(const std::vector<std::string>& names) {
   return out;
 }
 
-const KeySpec* SectionSpec::find(std::string_view name) const {
-  const auto at =
-      std::find_if(keys.begin(), keys.end(), [&](const KeySpec& k) { return k.name == name; });
-  return at == keys.end() ? nullptr : &*at;
-}
-
 bool read_quantity(Deck& deck, DeckNode& node, Dimension dimension, const KeyRange& range) {
   const std::string allowed = wanted(dimension, range);
   if (!check_kind(deck, node, node.is_number() || node.is_text(), allowed)) {
@@ -304,123 +283,6 @@ Section read_section(Deck& deck, DeckNode& node, const SectionSpec& spec) {
     }
   }
   return {node, spec};
-}
-
-DeckNode* Section::good(std::string_view key) const {
-  DeckNode* found = node_->find(key);
-  return found != nullptr && !found->bad ? found : nullptr;
-}
-
-bool Section::has(std::string_view key) const {
-  return good(key) != nullptr;
-}
-DeckNode* Section::node(std::string_view key) const {
-  return good(key);
-}
-
-double Section::number(std::string_view key, double absent) const {
-  const DeckNode* n = good(key);
-  return n != nullptr ? n->number : absent;
-}
-
-int Section::integer(std::string_view key) const {
-  const DeckNode* n = good(key);
-  return n != nullptr ? static_cast<int>(n->number) : 0;
-}
-
-bool Section::flag(std::string_view key) const {
-  const DeckNode* n = good(key);
-  return n != nullptr && n->flag;
-}
-
-std::string Section::text(std::string_view key, std::string absent) const {
-  const DeckNode* n = good(key);
-  return n != nullptr ? n->text : absent;
-}
-
-std::vector<double> Section::numbers(std::string_view key) const {
-  const DeckNode* n = good(key);
-  return n != nullptr ? numbers_of(*n) : std::vector<double>{};
-}
-
-std::vector<std::string> Section::texts(std::string_view key) const {
-  std::vector<std::string> out;
-  if (const DeckNode* n = good(key)) {
-    for (const DeckNode& item : n->items) {
-      out.push_back(item.text);
-    }
-  }
-  return out;
-}
-
-int Section::choice(std::string_view key) const {
-  const KeySpec* spec = spec_->find(key);
-  const DeckNode* n = good(key);
-  if (spec == nullptr || n == nullptr) {
-    return 0;
-  }
-  const auto at = std::find(spec->choices.begin(), spec->choices.end(), n->text);
-  return at == spec->choices.end() ? 0 : static_cast<int>(at - spec->choices.begin());
-}
-
-namespace {
-
-std::string kind_text(const KeySpec& key) {
-  const std::string dimension(name_of(key.dimension));
-  switch (key.kind) {
-  case KeyKind::quantity:
-    return dimension;
-  case KeyKind::quantities:
-    return key.min_count == key.max_count ? fmt::format("{} x {}", key.min_count, dimension)
-                                          : fmt::format("list of {}", dimension);
-  case KeyKind::integer:
-    return "whole number";
-  case KeyKind::flag:
-    return "true / false";
-  case KeyKind::text:
-    return "text";
-  case KeyKind::texts:
-    return "list of texts";
-  case KeyKind::choice:
-    return one_of(key.choices);
-  case KeyKind::choices:
-    return "list of " + one_of(key.choices);
-  case KeyKind::table:
-    return "table";
-  case KeyKind::tables:
-    return fmt::format("[[{}]]", key.name);
-  case KeyKind::special:
-    return "see right";
-  case KeyKind::planned:
-    break;
-  }
-  return "not available yet";
-}
-
-std::string default_text(const KeySpec& key) {
-  if (key.required) {
-    return "required";
-  }
-  return key.fallback.empty() ? "" : "`" + key.fallback + "`";
-}
-
-} // namespace
-
-std::string key_reference(const std::vector<const SectionSpec*>& sections) {
-  std::string out;
-  for (const SectionSpec* section : sections) {
-    out += fmt::format("\n## {}\n\n{}\n\n", section->header, section->doc);
-    out += "| key | takes | range | default | meaning |\n|---|---|---|---|---|\n";
-    for (const KeySpec& key : section->keys) {
-      out += fmt::format("| `{}` | {} | {} | {} | {} |\n",
-                         key.name,
-                         kind_text(key),
-                         range_text(key.range, key.dimension),
-                         default_text(key),
-                         key.doc);
-    }
-  }
-  return out;
 }
 
 } // namespace ballast

@@ -100,6 +100,9 @@ std::vector<double> numbers_of(const DeckNode& array);
 /// "a, b or c"
 std::string one_of(const std::vector<std::string>& names);
 
+/// "above 0 m", "from 1 to 3"; empty: any value.
+std::string range_text(const KeyRange& range, Dimension dimension);
+
 /// Markdown of the given sections.
 std::string key_reference(const std::vector<const SectionSpec*>& sections);
 

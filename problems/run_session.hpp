@@ -21,6 +21,9 @@ struct EnergyAccount {
   double unaccounted = 0; ///< total - start - known
 };
 
+/// Wall clock, s.
+double seconds_since(std::chrono::steady_clock::time_point t);
+
 template <int Dim> class RunSession : public Observer<Dim> {
 public:
   RunSession(const ReadScene& read, const std::filesystem::path& dir, int threads, const std::string& restart);

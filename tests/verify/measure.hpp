@@ -53,14 +53,4 @@ TubeRun<2> run_watched(const Tube& tube, const std::vector<Observer<2>*>& observ
 template <int Dim>
 TubeRun<Dim> run_scene(Scene<Dim>&& scene, double end_time, const std::vector<Observer<Dim>*>& observers = {});
 
-/// Stops a run after a number of steps.
-template <int Dim> class StepLimit : public Observer<Dim> {
-public:
-  explicit StepLimit(long steps) : steps_(steps) {}
-  bool record(const Scene<Dim>&, const Clock& clock) override { return clock.step < steps_; }
-
-private:
-  long steps_;
-};
-
 } // namespace ballast::verify

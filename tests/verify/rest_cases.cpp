@@ -1,4 +1,5 @@
 // Bodies that must not move under ambient pressure, and RZ meshes that must fall evenly.
+#include "tests/observers.hpp"
 #include "tests/verify/cases.hpp"
 #include "tests/verify/measure.hpp"
 

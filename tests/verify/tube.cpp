@@ -1,9 +1,17 @@
 #include "tests/verify/tube.hpp"
 
+#include "materials/library.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace ballast::verify {
+
+Material copper_at_zero() {
+  Material m = *find_material("copper_ofhc");
+  m.specific_energy = energy(m.eos, m.density, 0);
+  return m;
+}
 
 template <int Dim> TubeRun<Dim> make_tube(const Tube& t) {
   TubeRun<Dim> run;

@@ -11,6 +11,9 @@
 
 namespace ballast::verify {
 
+/// OFHC copper free of stress at rest: its energy is that of zero pressure, not of 1 atm.
+Material copper_at_zero();
+
 struct TubeState {
   int material = 0;
   double density = 1, velocity = 0, specific_energy = 0;

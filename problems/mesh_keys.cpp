@@ -1,0 +1,87 @@
+// Keys of the mesh: lines, boundaries, motion.
+#include "problems/scene_keys.hpp"
+
+namespace ballast::scene_keys {
+
+using enum KeyKind;
+
+const SectionSpec& mesh_axis() {
+  static const SectionSpec spec = {
+      "[mesh.AXIS]",
+      "Lines along one axis: `r = { from = \"0 mm\", to = [\"8 mm\", \"60 mm\"], size = [\"0.25 "
+      "mm\", \"2 mm\"] }` is "
+      "uniform to 8 mm and then grows geometrically to 2 mm. Ends are met exactly; sizes shrink a "
+      "little "
+      "where they do not divide a stretch.",
+      {{.name = "from",
+        .kind = quantity,
+        .doc = "low end",
+        .dimension = Dimension::length,
+        .required = true},
+       {.name = "to",
+        .kind = special,
+        .doc = "high end, or a rising list of places where `size` is given; required"},
+       {.name = "size",
+        .kind = special,
+        .doc = "cell size at each `to` (the first stretch is uniform), or at `from` and each `to`; "
+               "required unless "
+               "`cells` is given"},
+       {.name = "cells",
+        .kind = integer,
+        .doc = "instead of `size`: that many equal cells",
+        .range = {.lo = 1}},
+       {.name = "lower",
+        .kind = special,
+        .doc = "boundary at the low end; default `free`, at r = 0 `symmetry`"},
+       {.name = "upper", .kind = special, .doc = "boundary at the high end; default `free`"}}};
+  return spec;
+}
+
+const SectionSpec& boundary() {
+  static const SectionSpec spec = {
+      "Boundaries (`lower`, `upper`)",
+      "A text (`symmetry`, `free`, `wall`, `outflow`) or a table with these keys. `outflow` lets "
+      "material out and waves that arrive head on; what flows back in is the edge cell's. `inflow` "
+      "brings a material in at a fixed state; it needs an eulerian mesh. `absorbing` is not "
+      "available yet.",
+      {{.name = "type",
+        .kind = choice,
+        .doc = "`free` carries the ambient pressure, none where the scene starts with void; `wall` is rigid and frictionless",
+        .required = true,
+        .choices = {"symmetry", "free", "wall", "inflow", "outflow"}},
+       {.name = "velocity",
+        .kind = special,
+        .doc = "wall: one velocity along the axis; inflow: one velocity an axis, into the mesh"},
+       {.name = "material", .kind = text, .doc = "inflow: what comes in"},
+       {.name = "density",
+        .kind = quantity,
+        .doc = "inflow; the material's if absent",
+        .dimension = Dimension::density,
+        .range = positive()},
+       {.name = "pressure",
+        .kind = quantity,
+        .doc = "inflow; ambient if absent",
+        .dimension = Dimension::pressure}}};
+  return spec;
+}
+
+const SectionSpec& motion() {
+  static const SectionSpec spec = {
+      "[motion]",
+      "The mesh always takes a Lagrangian step; this says what happens after it.",
+      {{.name = "policy",
+        .kind = choice,
+        .doc = "lagrangian: never remapped; eulerian: back to the initial mesh; relax and follow "
+               "are not available "
+               "yet",
+        .fallback = "eulerian",
+        .choices = {"lagrangian", "eulerian", "relax", "follow"}},
+       {.name = "remap_every",
+        .kind = integer,
+        .doc = "steps between remaps (eulerian)",
+        .range = {1, 1e6},
+        .fallback = "1"}}};
+  return spec;
+}
+
+} // namespace ballast::scene_keys

@@ -1,0 +1,86 @@
+// summary.json: what a run did and measured, whole.
+#include "problems/run_session.hpp"
+
+#include "core/io/summary.hpp"
+#include "problems/commands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace ballast {
+
+template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const std::string& message) {
+  using nlohmann::ordered_json;
+  const Block<Dim>& b = scene_.blocks[0];
+  const Totals t = totals(b);
+  const EnergyAccount a = account();
+  const Ledger& l = scene_.ledger;
+  const double wall = seconds_since(start_);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  ordered_json j;
+  j["program"] = "ballast";
+  j["version"] = version;
+  j["title"] = spec_.title;
+  j["deck_hash"] = memory_.deck_hash;
+  j["ended"] = ended;
+  if (!message.empty()) {
+    j["message"] = message;
+  }
+  j["end_time_asked_s"] = clock_.end_time;
+  j["end_time_reached_s"] = clock_.time;
+  j["cells"] = b.grid.cell_count();
+  j["steps"] = clock_.step;
+  j["wall_seconds"] = memory_.wall_before + wall;
+  j["cell_steps_per_second"] = static_cast<double>(b.grid.cell_count()) * static_cast<double>(clock_.step - start_step_) / std::max(wall, 1e-9);
+  j["threads"] = scene_.pool->size();
+  j["peak_memory_bytes"] = static_cast<double>(usage.ru_maxrss) * 1024;
+  j["dt_first_s"] = dt_first_;
+  j["dt_smallest_s"] = dt_min_;
+  for (std::size_t q = 0; q < clock_.census.size(); ++q) {
+    j["dt_limiter_census"][name_of(static_cast<DtCause>(q))] = clock_.census[q];
+  }
+  double mass_error = 0;
+  for (std::size_t m = 0; m < b.materials.size(); ++m) {
+    if (b.materials[m].is_void) {
+      continue;
+    }
+    const double m0 = memory_.mass_start[m], out = m < l.mass_out.size() ? l.mass_out[m] : 0.0;
+    const double error = m0 > 0 ? (t.mass[m] + out - m0) / m0 : 0.0;
+    mass_error = std::max(mass_error, std::abs(error));
+    j["mass_kg"][b.materials[m].material.name] = {{"start", m0}, {"end", t.mass[m]}, {"left_block", out}, {"relative_error", error},
+                                                  {"internal_energy_gain_J", t.internal_energy[m] - memory_.results[m]}};
+  }
+  j["momentum_kg_m_per_s"] = {{"start", memory_.momentum_start}, {"end", t.momentum}, {"left_block", l.momentum_out}};
+  j["energy_J"] = {{"start", memory_.energy_start}, {"end_total", a.total}, {"end_kinetic", a.kinetic}, {"end_internal", a.internal},
+                   {"boundary_work", l.boundary_work}, {"ambient_work", l.ambient_work}, {"void_work", l.void_work},
+                   {"remap_kinetic_loss", l.remap_kinetic_loss}, {"remap_kinetic_returned_to_heat", l.remap_kinetic_return},
+                   {"left_block", l.energy_out}, {"slivers", l.sliver_energy}, {"unaccounted", a.unaccounted}};
+  j["conservation_errors"] = {{"mass_relative", mass_error},
+                              {"energy_relative", a.unaccounted / std::max(std::abs(memory_.energy_start), 1e-300)}};
+  j["floors"] = {{"slivers_dropped", l.slivers}, {"sliver_mass_kg", l.sliver_mass}, {"energy_return_cut", l.energy_floors},
+                 {"spalled_cells", l.spalled_cells}, {"void_residues_closed", l.closed_voids}, {"step_retries", l.retries}};
+  const Results& res = spec_.results;
+  if (!res.bullet.empty()) {
+    const BodyMeasure m = measure_body(b, bullet_slots(), res.shot_axis, res.shot_direction);
+    j["results"]["bullet"] = {{"mass_kg", m.mass}, {"velocity_m_per_s", m.velocity}, {"front_m", m.front}, {"rear_m", m.rear}, {"radius_m", m.radius}};
+    if (std::isfinite(res.target_face)) {
+      j["results"]["bullet"]["depth_m"] = (m.front - res.target_face) * res.shot_direction;
+    }
+  }
+  if (res.target >= 0) {
+    const auto slot = static_cast<std::size_t>(slots_.slot[static_cast<std::size_t>(res.target)]);
+    j["results"]["target"] = {{"cavity_radius_largest_m", cavity_peak_}, {"internal_energy_gain_J", t.internal_energy[slot] - memory_.results[slot]}};
+  }
+  for (std::size_t q = 0; q < spec_.gauges.size(); ++q) {
+    j["results"]["gauges"][spec_.gauges[q].name] = {{"peak_pressure_Pa", gauge_peaks_[q]}};
+  }
+  io::write_text_atomically(dir_ / "summary.json", j.dump(2) + "\n");
+}
+
+template void RunSession<2>::summary(const std::string&, const std::string&);
+template void RunSession<3>::summary(const std::string&, const std::string&);
+
+} // namespace ballast

@@ -1,0 +1,44 @@
+// What the parts of the shapes' geometry share: vectors, axes, profiles. Not for readers of shapes.
+#pragma once
+
+#include "problems/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace ballast {
+
+inline double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Point operator-(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Point axis_of(const Cylinder& c) {
+  Point a = c.to - c.from;
+  const double length = std::sqrt(dot(a, a));
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+/// The mesh axis a unit vector lies along, or -1.
+inline int aligned_with(const Point& a) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (std::abs(std::abs(a[k]) - 1) < 1e-12) {
+      return static_cast<int>(k);
+    }
+  }
+  return -1;
+}
+
+/// First profile segment that can reach z: index i of points i, i + 1.
+inline std::size_t segment_at(const Revolved& r, double z) {
+  const auto above =
+      std::upper_bound(r.profile.begin(), r.profile.end(), z, [](double value, const auto& point) {
+        return value < point[0];
+      });
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, above - r.profile.begin()) - 1);
+}
+
+Bounds bounds_of(const Cylinder& c);
+
+} // namespace ballast
