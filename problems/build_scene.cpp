@@ -13,7 +13,7 @@ SlotMap slot_map(const SceneSpec& spec) {
   SlotMap map;
   map.slot.assign(spec.materials.size(), -1);
   int next = 0;
-  for (const int m : spec.numerics.interface_order) {
+  for (const int m : spec.interface_order) {
     map.slot[static_cast<std::size_t>(m)] = next++;
   }
   for (int& s : map.slot) {
@@ -25,21 +25,10 @@ SlotMap slot_map(const SceneSpec& spec) {
 namespace {
 
 Numerics method_of(const SceneSpec& spec) {
-  const MethodSpec& m = spec.numerics;
-  Numerics n;
-  n.cfl = m.cfl;
-  n.closure = m.closure;
-  n.quadratic_q = m.quadratic_q;
-  n.linear_q = m.linear_q;
-  n.hourglass = m.hourglass;
+  Numerics n = spec.numerics;
   const bool strength = std::any_of(spec.materials.begin(), spec.materials.end(),
                                     [](const Material& mat) { return has_strength(mat.strength); });
-  n.energy_return = m.energy_return == Switch::on || (m.energy_return == Switch::automatic && !strength);
-  n.normal = static_cast<remap::NormalMethod>(m.normal);
-  n.dt_initial = m.dt_initial;
-  n.dt_growth = m.dt_growth;
-  n.dt_max = m.dt_max;
-  n.spall = m.spall;
+  n.energy_return = spec.energy_return == Switch::on || (spec.energy_return == Switch::automatic && !strength);
   return n;
 }
 

@@ -72,15 +72,15 @@ std::vector<int> interface_order(Deck& deck, DeckNode* list, const SceneSpec& sc
 
 void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
   const Section in = read_section(deck, node, scene_keys::numerics());
-  MethodSpec& n = scene.numerics;
+  Numerics& n = scene.numerics;
   n.cfl = in.number("cfl", n.cfl);
   n.closure = static_cast<Closure>(in.choice("closure"));
   n.quadratic_q = in.number("quadratic_q", n.quadratic_q);
   n.linear_q = in.number("linear_q", n.linear_q);
   n.hourglass = in.number("hourglass", n.hourglass);
-  n.energy_return = static_cast<Switch>(in.choice("energy_return"));
-  n.normal = static_cast<InterfaceNormal>(in.choice("normal"));
-  n.interface_order = interface_order(deck, in.node("interface_order"), scene);
+  scene.energy_return = static_cast<Switch>(in.choice("energy_return"));
+  n.normal = static_cast<remap::NormalMethod>(in.choice("normal"));
+  scene.interface_order = interface_order(deck, in.node("interface_order"), scene);
   n.dt_initial = in.number("dt_initial", n.dt_initial);
   n.dt_growth = in.number("dt_growth", n.dt_growth);
   n.dt_max = in.number("dt_max", n.dt_max);

@@ -36,26 +36,6 @@ struct Body {
 };
 
 enum class Switch { automatic, on, off };
-enum class InterfaceNormal { elvira, mixed_youngs_centred, youngs };
-
-struct MethodSpec {
-  double cfl = 0.5;
-  Closure closure = Closure::pressure_relaxation;
-  double quadratic_q = 1.0; ///< factor on the Kuropatenko coefficient (g+1)/4
-  double linear_q = 0.5;    ///< factor on the sound speed
-  double hourglass = 0.06;  ///< Flanagan-Belytschko, viscous
-  /// Kinetic energy lost in the remap goes back to heat. automatic: on without strength, off with
-  /// it.
-  Switch energy_return = Switch::automatic;
-  InterfaceNormal normal = InterfaceNormal::elvira;
-  /// Onion-skin order: indices into SceneSpec::materials, first peeled first; void is last.
-  std::vector<int> interface_order;
-  double dt_initial = 0; ///< s, 0: the stable step
-  double dt_growth = 1.1;
-  double dt_max = std::numeric_limits<double>::infinity();
-  bool spall = true; ///< void opens below a material's spall pressure
-};
-
 /// A point that records. `rides`: moves with the material, else fixed in space.
 struct Gauge {
   std::string name;
@@ -98,7 +78,11 @@ struct SceneSpec {
   std::vector<Body> bodies;
   int background = -1; ///< material where no body is, -1: void
   Motion motion;
-  MethodSpec numerics;
+  Numerics numerics; ///< its energy_return as the next line resolves it
+  /// Kinetic energy lost in the remap goes back to heat. automatic: on without strength, off with it.
+  Switch energy_return = Switch::automatic;
+  /// Onion-skin order: indices into `materials`, first peeled first; void is last.
+  std::vector<int> interface_order;
   std::vector<Gauge> gauges;
   Output output;
   Results results;

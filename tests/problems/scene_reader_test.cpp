@@ -68,7 +68,7 @@ TEST(Scene, IsResolvedInSi) {
   EXPECT_EQ(s.mesh_lines[0].size(), 17u);
   EXPECT_TRUE(s.mesh_lines[2].empty());
   EXPECT_EQ(s.background, -1);
-  EXPECT_EQ(s.numerics.interface_order, (std::vector<int>{0, 1}));
+  EXPECT_EQ(s.interface_order, (std::vector<int>{0, 1}));
   EXPECT_EQ(s.motion.policy, MotionPolicy::eulerian);
 }
 

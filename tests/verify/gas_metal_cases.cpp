@@ -48,7 +48,7 @@ SceneSpec block_in_air(int cells, Closure closure, MotionPolicy motion, bool str
   s.motion = {motion, 1};
   s.numerics.closure = closure;
   s.numerics.spall = false;
-  s.numerics.energy_return = Switch::on;
+  s.energy_return = Switch::on;
   const double h = length / cells;
   for (int i = 0; i <= cells; ++i) {
     s.mesh_lines[0].push_back(i * h);

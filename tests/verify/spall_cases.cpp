@@ -30,7 +30,7 @@ Scene<2> bar_at_rest(const SpallBar& p) {
   s.end_time = p.end_time;
   s.materials = {copper};
   s.motion = {p.motion, 1};
-  s.numerics.energy_return = p.strength ? Switch::automatic : Switch::off;
+  s.energy_return = p.strength ? Switch::automatic : Switch::off;
   const bool lagrangian = p.motion == MotionPolicy::lagrangian;
   const auto behind = lagrangian ? 0 : 10L;
   const auto cells = std::lround((p.length + (lagrangian ? 0 : p.room)) / spall_cell) + behind;
