@@ -95,11 +95,15 @@ Eigen::Vector3d normal_of(const Block<Dim>& b, std::size_t m, const std::array<i
     }
   }
   for (int a = 0; a < Dim; ++a) {
-    std::array<int, 3> below = cell, above = cell;
     const auto ua = static_cast<std::size_t>(a);
+    if (g.cells[ua] == 1) {
+      continue; // nothing varies along it
+    }
+    std::array<int, 3> below = cell, above = cell;
     below[ua] = at[ua][0];
     above[ua] = at[ua][2];
-    dx.row(a) = centre(b, above) - centre(b, below);
+    const bool at_side = above[ua] - below[ua] == 1; // beyond it the mirror image, of the same fraction
+    dx.row(a) = (at_side ? 2 : 1) * (centre(b, above) - centre(b, below));
   }
   const Eigen::Vector3d n = dx.inverse() * df;
   const double length = n.norm();

@@ -148,5 +148,57 @@ TEST(Traction, ClosingVoidDoesNotFlattenTheCopper) {
   EXPECT_NEAR(a.copper().store.row(field::stress, r)[middle], 0, 1e-4 * shared);
 }
 
+/// Normals of all cells, row by row, of copper beside void, fraction 0.8 - 0.05 x^2 - 0.1 y (x, y in cells).
+std::vector<std::array<double, 3>> normals_of_a_ridge(int first_column, int rows) {
+  constexpr int last_column = 3;
+  Scene<2> scene;
+  Block<2>& b = scene.blocks.emplace_back();
+  const Material copper = *find_material("copper_ofhc");
+  b.materials.push_back(make_slot(copper, 0));
+  b.materials.push_back(make_void());
+  std::vector<double> x, y;
+  for (int i = first_column; i <= last_column; ++i) {
+    x.push_back(cell * i);
+  }
+  for (int j = 0; j <= rows; ++j) {
+    y.push_back(cell * j);
+  }
+  allocate_block(b, {x, y, {}});
+  for_each_cell(b, [&](int i, int j, int k) {
+    const double f = 0.8 - 0.05 * std::pow(first_column + i + 0.5, 2) - 0.1 * (j + 0.5);
+    const CellPart parts[2] = {{0, f, copper.density, copper.specific_energy}, {1, 1 - f, 0, 0}};
+    fill_cell<2>(b, i, j, k, std::span<const CellPart>(parts, 2));
+  });
+  pull_back_to_yield(b, *scene.pool);
+  update_state(b, *scene.pool);
+  update_traction(b, *scene.pool);
+  std::vector<std::array<double, 3>> out;
+  for (int j = 0; j < rows; ++j) {
+    for (const auto& n : b.interface_normals[static_cast<std::size_t>(b.grid.cell_row(j, 0))]) {
+      out.push_back({n[0], n[1], n[2]});
+    }
+  }
+  return out;
+}
+
+TEST(Traction, NormalAtASideIsThatOfTheMirroredWhole) {
+  const auto half = normals_of_a_ridge(0, 3), whole = normals_of_a_ridge(-3, 3);
+  ASSERT_EQ(half.size(), 9u);
+  ASSERT_EQ(whole.size(), 18u);
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t d = 0; d < 2; ++d) {
+        EXPECT_NEAR(half[3 * j + i][d], whole[6 * j + 3 + i][d], 1e-12) << i << ' ' << j;
+      }
+    }
+  }
+}
+
+TEST(Traction, NormalOfASingleRowIsAlongIt) {
+  for (const auto& n : normals_of_a_ridge(0, 1)) {
+    EXPECT_NEAR(std::abs(n[0]), 1, 1e-12);
+  }
+}
+
 } // namespace
 } // namespace ballast
