@@ -75,7 +75,8 @@ template <int Dim> struct Block {
   RowField target_volume; ///< on the target mesh
   RowField density, pressure, modulus, wave_speed; ///< of the whole cell
   std::array<RowField, stress_components<Dim>> stress; ///< empty unless a material has strength
-  RowField shear, flow_stress; ///< of the cell: sum of fraction x shear modulus, x flow stress; likewise
+  /// Of the cell, likewise: shear modulus (mixed: harmonic mean, 0 beside void or a fluid), sum of fraction x flow stress.
+  RowField shear, flow_stress;
   std::array<RowField, Dim> strain_rate, length, viscosity; ///< along each logical axis
   std::array<RowField, Dim> swept, mass_flux;               ///< faces, at the cell above them
   /// Interface normal of each mixed cell of a row, left to right; blocks with strength (ale/traction).

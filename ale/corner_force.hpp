@@ -4,7 +4,8 @@
 //
 // In RZ: F_r = -(s_rr A_r + s_rz A_z + s_tt H) with S_r = A_r + H, F_z = -(s_rz A_r + s_zz A_z).
 // The deviator is carried to the half step too, s + G dt dev(D), and cut back to the flow stress: with the
-// stress of the start of the step the scheme would be (weakly) unstable for elastic waves.
+// stress of the start of the step the scheme would be (weakly) unstable for elastic waves. Mixed cells beside
+// void or a fluid have no shear modulus: there the tangential stress stays that of the start.
 // Viscosity acts along the cell's mid lines t_d: sigma = -sum q_d t_d t_d^T. (Along the normals of the mid
 // surfaces a flat, sheared cell would feel its long axis' viscosity across its short one: unstable.)
 // Hourglass: Flanagan-Belytschko, viscous, on the modes that a linear velocity field does not excite.

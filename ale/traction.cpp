@@ -1,52 +1,97 @@
 #include "ale/traction.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace ballast {
 
+template <> Eigen::Matrix3d deviator_of<2>(const MaterialSlot& slot, int r, int i) {
+  const double xx = slot.store.row(field::stress, r)[i],
+               yy = slot.store.row(field::stress + 1, r)[i],
+               xy = slot.store.row(field::stress + 2, r)[i];
+  Eigen::Matrix3d s;
+  s << xx, xy, 0, xy, yy, 0, 0, 0, -xx - yy;
+  return s;
+}
+template <> Eigen::Matrix3d deviator_of<3>(const MaterialSlot& slot, int r, int i) {
+  const auto at = [&](int a) { return slot.store.row(field::stress + a, r)[i]; };
+  Eigen::Matrix3d s;
+  s << at(0), at(2), at(4), at(2), at(1), at(3), at(4), at(3), -at(0) - at(1);
+  return s;
+}
+
 namespace {
 
-constexpr double full_slip =
-    0.05; ///< of a cell: with less soft matter in it the slip law fades out
-constexpr double most_ease =
-    2; ///< of the cell's shear that a material takes: the soft ones yield anyway
+constexpr double full_slip = 0.05; ///< of a cell: with less soft matter in it the slip law fades out
+constexpr double most_ease = 2;    ///< of the cell's shear that a material takes: what yields carries no more
+constexpr double spread = 0.1;     ///< weight of the gradients' spread beside their mean in the normal
+constexpr double no_gradient = 1e-6; ///< of fraction from cell to cell
 
 double fraction_of(const MaterialSlot& slot, int r, int i) {
   return slot.store.row(field::fraction, r)[i];
 }
 
-/// What of a cell sets the traction: void, else a fluid, else the least flow stress.
-struct Weakest {
-  std::size_t material = 0;
-  double traction = std::numeric_limits<double>::infinity(); ///< shear traction it can carry, Pa
-};
-template <int Dim> Weakest weakest_of(const Block<Dim>& b, int r, int i) {
-  Weakest w;
-  for (std::size_t m = 0; m < b.materials.size(); ++m) {
-    const MaterialSlot& slot = b.materials[m];
-    if (fraction_of(slot, r, i) <= 0) {
-      continue;
+/// What a cell holds, the least shear traction first: void, fluids, then by flow stress.
+struct Contents {
+  struct Layer {
+    std::size_t material = 0;
+    double fraction = 0;
+    double traction = 0; ///< shear traction it can carry, Pa
+  };
+  std::array<Layer, max_materials_in_cell> layer{};
+  int count = 0;
+
+  const Layer* begin() const { return layer.data(); }
+  const Layer* end() const { return layer.data() + count; }
+
+  /// How much there is to slip on, 0 to 1: a trace of soft matter in a corner does not part what is strong.
+  double slip() const {
+    double soft = 0;
+    const double strongest = count > 0 ? layer[static_cast<std::size_t>(count) - 1].traction : 0.0;
+    for (const Layer& l : *this) {
+      soft += strongest > 0 ? l.fraction * (1 - l.traction / strongest) : 0.0;
     }
-    const double t = slot.is_void ? -1.0
-                     : slot.strength
-                         ? slot.store.row(slot.flow_stress_field(), r)[i] / std::sqrt(3.0)
-                         : 0.0;
-    if (t < w.traction) {
-      w = {m, t};
+    return std::min(1.0, soft / full_slip);
+  }
+
+  /// Shear traction, Pa, that a material which could carry `own` finds here: that of what is softer, if there
+  /// is enough of it.
+  double carried(double own) const {
+    double softer = 0, limit = own;
+    for (const Layer& l : *this) {
+      softer += l.traction < own ? l.fraction : 0.0;
+    }
+    for (int k = count - 1; k >= 0; --k) {
+      const Layer& l = layer[static_cast<std::size_t>(k)];
+      if (l.traction < own) {
+        limit += std::min(1.0, softer / full_slip) * (l.traction - limit);
+        softer -= l.fraction;
+      }
+    }
+    return limit;
+  }
+};
+
+template <int Dim> Contents contents_of(const Block<Dim>& b, int r, int i) {
+  Contents c;
+  for (std::size_t m = 0; m < b.materials.size() && c.count < max_materials_in_cell; ++m) {
+    const MaterialSlot& slot = b.materials[m];
+    const double f = fraction_of(slot, r, i);
+    if (f > 0) {
+      const double t = slot.strength ? slot.store.row(slot.flow_stress_field(), r)[i] / std::sqrt(3.0) : 0.0;
+      int at = c.count++;
+      for (; at > 0 && c.layer[static_cast<std::size_t>(at) - 1].traction > t; --at) {
+        c.layer[static_cast<std::size_t>(at)] = c.layer[static_cast<std::size_t>(at) - 1];
+      }
+      c.layer[static_cast<std::size_t>(at)] = {m, f, t};
     }
   }
-  w.traction = std::max(0.0, w.traction);
-  return w;
-}
-
-/// Share of the slip law: a trace of soft matter in a corner does not part what is strong.
-double slip_share(double weak_fraction) {
-  return std::min(1.0, weak_fraction / full_slip);
+  return c;
 }
 
 /// Centre of a cell.
@@ -61,37 +106,33 @@ template <int Dim> Eigen::Vector3d centre(const Block<Dim>& b, const std::array<
   return x / (1 << Dim);
 }
 
-/// Unit normal of material m's surface in a cell, out of the others into it: gradient of its
-/// fraction over the neighbours (Youngs), in space. Zero where the fraction does not vary.
+/// Direction in which a matrix with no negative eigenvalue is largest, zero if that is below `least`.
+template <int Dim> Eigen::Vector3d principal(const Eigen::Matrix3d& m, double least) {
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();
+  if (!(m.trace() > least)) {
+    return n;
+  }
+  if constexpr (Dim == 2) {
+    const double d = 0.5 * (m(0, 0) - m(1, 1)), h = std::sqrt(d * d + m(0, 1) * m(0, 1));
+    n = d >= 0 ? Eigen::Vector3d(d + h, m(0, 1), 0) : Eigen::Vector3d(m(0, 1), h - d, 0);
+  } else {
+    n = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors().col(2);
+  }
+  const double length = n.norm();
+  return length > 0 ? Eigen::Vector3d(n / length) : Eigen::Vector3d::Zero();
+}
+
+/// Unit normal of the interfaces in a cell, up to its sign: of what is softer against what is stronger, each
+/// by how much there is of the lesser. From the gradients of the summed fraction at the cell's corners: their
+/// mean (Youngs) where they agree, their spread where both sides of a sheet are in the cell. Zero without one.
 template <int Dim>
-Eigen::Vector3d normal_of(const Block<Dim>& b, std::size_t m, const std::array<int, 3>& cell) {
+Eigen::Vector3d normal_of(const Block<Dim>& b, const Contents& contents, const std::array<int, 3>& cell) {
   const Grid& g = b.grid;
-  Eigen::Vector3d df = Eigen::Vector3d::Zero();
   Eigen::Matrix3d dx = Eigen::Matrix3d::Identity();
   std::array<std::array<int, 3>, 3> at{}; // below, here, above, by axis
   for (std::size_t a = 0; a < 3; ++a) {
     for (int q = 0; q < 3; ++q) {
-      at[a][static_cast<std::size_t>(q)] =
-          std::clamp(cell[a] + q - 1, 0, std::max(0, g.cells[a] - 1));
-    }
-  }
-  double f[3][3][3];
-  for (std::size_t z = 0; z < 3; ++z) {
-    for (std::size_t y = 0; y < 3; ++y) {
-      const double* row =
-          b.materials[m].store.row(field::fraction, g.cell_row(at[1][y], Dim == 3 ? at[2][z] : 0));
-      for (std::size_t x = 0; x < 3; ++x) {
-        f[z][y][x] = row[at[0][x]];
-      }
-    }
-  }
-  const double weight[3] = {1, 2, 1};
-  for (int p = 0; p < 3; ++p) {
-    for (int q = 0; q < 3; ++q) {
-      const double w = weight[p] * weight[q];
-      df[0] += w * (f[p][q][2] - f[p][q][0]);
-      df[1] += w * (f[p][2][q] - f[p][0][q]);
-      df[2] += Dim == 3 ? w * (f[2][p][q] - f[0][p][q]) : 0.0;
+      at[a][static_cast<std::size_t>(q)] = std::clamp(cell[a] + q - 1, 0, std::max(0, g.cells[a] - 1));
     }
   }
   for (int a = 0; a < Dim; ++a) {
@@ -103,12 +144,70 @@ Eigen::Vector3d normal_of(const Block<Dim>& b, std::size_t m, const std::array<i
     below[ua] = at[ua][0];
     above[ua] = at[ua][2];
     const bool at_side = above[ua] - below[ua] == 1; // beyond it the mirror image, of the same fraction
-    dx.row(a) = (at_side ? 2 : 1) * (centre(b, above) - centre(b, below));
+    dx.row(a) = (at_side ? 1 : 0.5) * (centre(b, above) - centre(b, below));
   }
-  const Eigen::Vector3d n = dx.inverse() * df;
-  const double length = n.norm();
-  return std::isfinite(length) && length > 0 ? Eigen::Vector3d(n / length)
-                                             : Eigen::Vector3d::Zero();
+  const Eigen::Matrix3d to_space = dx.inverse();
+  const double size = dx.topLeftCorner<Dim, Dim>().squaredNorm();
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  double f[3][3][3] = {}, softer = 0;
+  for (auto layer = contents.begin(); layer + 1 < contents.end(); ++layer) {
+    softer += layer->fraction;
+    for (std::size_t z = 0; z < (Dim == 3 ? 3 : 1); ++z) {
+      for (std::size_t y = 0; y < 3; ++y) {
+        const double* row = b.materials[layer->material].store.row(
+            field::fraction, g.cell_row(at[1][y], Dim == 3 ? at[2][z] : 0));
+        for (std::size_t x = 0; x < 3; ++x) {
+          f[z][y][x] += row[at[0][x]];
+        }
+      }
+    }
+    constexpr int corners = 1 << Dim;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+    for (int corner = 0; corner < corners; ++corner) {
+      Eigen::Vector3d df = Eigen::Vector3d::Zero();
+      for (int q = 0; q < corners; ++q) {
+        const double value = f[(corner >> 2) + (q >> 2)][(corner >> 1 & 1) + (q >> 1 & 1)][(corner & 1) + (q & 1)];
+        for (int a = 0; a < Dim; ++a) {
+          df[a] += (q >> a & 1) != 0 ? value : -value;
+        }
+      }
+      const Eigen::Vector3d gradient = to_space * (df * (2.0 / corners));
+      mean += gradient / corners;
+      square += gradient * gradient.transpose() / corners;
+    }
+    sum += std::min(softer, 1 - softer) * ((1 - spread) * mean * mean.transpose() + spread * square);
+  }
+  return principal<Dim>(sum, no_gradient * no_gradient / size);
+}
+
+/// Cuts the shear traction of each deviator to what the interface carries. Twice is as good as once.
+template <int Dim>
+void cut_tractions(Block<Dim>& b, const Contents& contents, const Eigen::Vector3d& n, int r, int i) {
+  for (const Contents::Layer& l : contents) {
+    MaterialSlot& slot = b.materials[l.material];
+    if (!slot.strength) {
+      continue;
+    }
+    const Eigen::Matrix3d s = deviator_of<Dim>(slot, r, i);
+    Eigen::Vector3d t = s * n;
+    t -= n.dot(t) * n;
+    const double size = t.norm(), carried = contents.carried(l.traction);
+    if (!(size > carried + 1e-12 * l.traction)) { // not for round-off: a restart cuts again
+      continue;
+    }
+    const Eigen::Vector3d d = (carried / size - 1) * t;
+    const auto add = [&](int component, int x, int y) {
+      slot.store.row(field::stress + component, r)[i] += d[x] * n[y] + n[x] * d[y];
+    };
+    add(0, 0, 0);
+    add(1, 1, 1);
+    add(2, 0, 1);
+    if constexpr (Dim == 3) {
+      add(3, 1, 2);
+      add(4, 0, 2);
+    }
+  }
 }
 
 template <int Dim> void traction_cell(Block<Dim>& b, int r, int i, const Eigen::Vector3d& n) {
@@ -134,7 +233,7 @@ template <int Dim> void traction_cell(Block<Dim>& b, int r, int i, const Eigen::
       const Eigen::Matrix3d s = deviator_of<Dim>(slot, r, i);
       const double normal = n.dot(s * n);
       p.pressure -= normal;
-      p.modulus += 4.0 / 3.0 * shear_modulus(slot.material.strength);
+      p.modulus += n.squaredNorm() * 4 / 3 * shear_modulus(slot.material.strength);
       T += f * (s - normal * Eigen::Matrix3d::Identity());
       soft += f / shear_modulus(slot.material.strength);
     }
@@ -142,7 +241,6 @@ template <int Dim> void traction_cell(Block<Dim>& b, int r, int i, const Eigen::
   const CellPressure cp = mixed_pressure(cell, -b.reference_pressure);
   const double mean = T.trace() / 3;
   b.pressure.row(r)[i] = cp.pressure - mean;
-  b.modulus.row(r)[i] = cp.modulus;
   b.stress[0].row(r)[i] = T(0, 0) - mean;
   b.stress[1].row(r)[i] = T(1, 1) - mean;
   b.stress[2].row(r)[i] = T(0, 1);
@@ -150,25 +248,12 @@ template <int Dim> void traction_cell(Block<Dim>& b, int r, int i, const Eigen::
     b.stress[3].row(r)[i] = T(1, 2);
     b.stress[4].row(r)[i] = T(0, 2);
   }
-  b.shear.row(r)[i] = stiff && soft > 0 ? 1 / soft : 0.0;
+  const double shear = stiff && soft > 0 ? 1 / soft : 0.0;
+  b.shear.row(r)[i] = shear;
+  b.modulus.row(r)[i] = std::max(0.0, cp.modulus - n.squaredNorm() * 4 / 3 * shear); // the force adds it for dev D
 }
 
 } // namespace
-
-template <> Eigen::Matrix3d deviator_of<2>(const MaterialSlot& slot, int r, int i) {
-  const double xx = slot.store.row(field::stress, r)[i],
-               yy = slot.store.row(field::stress + 1, r)[i],
-               xy = slot.store.row(field::stress + 2, r)[i];
-  Eigen::Matrix3d s;
-  s << xx, xy, 0, xy, yy, 0, 0, 0, -xx - yy;
-  return s;
-}
-template <> Eigen::Matrix3d deviator_of<3>(const MaterialSlot& slot, int r, int i) {
-  const auto at = [&](int a) { return slot.store.row(field::stress + a, r)[i]; };
-  Eigen::Matrix3d s;
-  s << at(0), at(2), at(4), at(2), at(1), at(3), at(4), at(3), -at(0) - at(1);
-  return s;
-}
 
 template <> Eigen::Matrix3d gradient_of<2>(const WorkRows<2>& w, int i) {
   Eigen::Matrix3d l;
@@ -200,8 +285,10 @@ template <int Dim> void update_traction(Block<Dim>& b, ThreadPool& pool) {
         normals.clear();
         runs.scan(b.owner_row(r), g.cells[0]);
         for (const int i : runs.mixed) {
-          const Eigen::Vector3d n = normal_of(b, weakest_of(b, r, i).material, {i, j, k});
+          const Contents contents = contents_of(b, r, i);
+          const Eigen::Vector3d n = normal_of(b, contents, {i, j, k});
           normals.push_back({n[0], n[1], n[2]});
+          cut_tractions(b, contents, n, r, i);
           traction_cell(b, r, i, n);
         }
       }
@@ -219,17 +306,40 @@ void share_strain(const Block<Dim>& b,
                   double compression,
                   double (*out)[9],
                   double* work) {
-  double soft = 0, whole = 0;
-  bool fluid = false;
-  for (int k = 0; k < cell.count; ++k) {
-    const MaterialSlot& slot = b.materials[static_cast<std::size_t>(cell.part[k].material)];
-    whole += cell.part[k].volume;
-    fluid = fluid || !slot.strength;
-    soft += slot.strength ? cell.part[k].volume / shear_modulus(slot.material.strength) : 0.0;
+  const Contents contents = contents_of(b, r, i);
+  const double slip = contents.slip();
+  const auto tangential = [&](const Eigen::Vector3d& v) { return Eigen::Vector3d(v - n.dot(v) * n); };
+  const Eigen::Vector3d shear = tangential((gradient + gradient.transpose()) * n);
+  // The traction that all would share if nothing yielded, then what the interface carries.
+  Eigen::Vector3d common = shear;
+  double soft = 0, open = 0, strongest = 0, yielding = 0;
+  for (const Contents::Layer& l : contents) {
+    const MaterialSlot& slot = b.materials[l.material];
+    if (slot.strength) {
+      const double compliance = l.fraction / shear_modulus(slot.material.strength);
+      common += compliance * tangential(deviator_of<Dim>(slot, r, i) * n);
+      soft += compliance;
+    } else {
+      open += l.fraction;
+    }
+    strongest = std::max(strongest, l.traction);
   }
-  const double weight = slip_share(fraction_of(b.materials[weakest_of(b, r, i).material], r, i));
-  Eigen::Vector3d shear = (gradient + gradient.transpose()) * n;
-  shear -= n.dot(shear) * n;
+  common /= soft > 0 ? soft : 1;
+  const double carried = contents.carried(strongest), size = common.norm();
+  common *= size > carried ? carried / size : 1.0;
+  const auto elastic = [&](const MaterialSlot& slot) {
+    return Eigen::Vector3d((common - tangential(deviator_of<Dim>(slot, r, i) * n)) /
+                           shear_modulus(slot.material.strength));
+  };
+  // What is then left of the shear is slip: in what is open, else in what yields.
+  Eigen::Vector3d rest = (1 - std::min(1.0, open / full_slip)) * shear;
+  for (const Contents::Layer& l : contents) {
+    if (b.materials[l.material].strength) {
+      rest -= l.fraction * elastic(b.materials[l.material]);
+      yielding += l.fraction * (strongest - l.traction);
+    }
+  }
+  rest *= size > carried && yielding > 0 ? 1 / yielding : 0.0;
   for (int k = 0; k < cell.count; ++k) {
     const MixedCell::Part& p = cell.part[k];
     const MaterialSlot& slot = b.materials[static_cast<std::size_t>(p.material)];
@@ -238,11 +348,14 @@ void share_strain(const Block<Dim>& b,
       continue;
     }
     const double volume = p.volume * (1 + compression);
-    const double ease = fluid ? 0.0 : whole / (shear_modulus(slot.material.strength) * soft);
-    const double stretch = p.volume_change / volume - gradient.trace();
-    const Eigen::Vector3d jump = stretch * n + weight * (std::min(ease, most_ease) - 1) * shear;
-    const Eigen::Matrix3d l = gradient + jump * n.transpose();
     const Eigen::Matrix3d s = deviator_of<Dim>(slot, r, i);
+    const double traction = slot.store.row(slot.flow_stress_field(), r)[i] / std::sqrt(3.0);
+    Eigen::Vector3d own = elastic(slot) + (strongest - traction) * rest;
+    const double most = most_ease * shear.norm();
+    own *= own.norm() > most ? most / own.norm() : 1.0;
+    const double stretch = p.volume_change / volume - gradient.trace();
+    const Eigen::Vector3d jump = stretch * n + slip * (own - shear);
+    const Eigen::Matrix3d l = gradient + jump * n.transpose();
     work[k] = volume * ((s.cwiseProduct(l)).sum() - n.dot(s * n) * l.trace());
     double* o = out[k];
     if constexpr (Dim == 2) {
@@ -256,30 +369,6 @@ void share_strain(const Block<Dim>& b,
         o[q] = l(q / 3, q % 3);
       }
     }
-  }
-}
-
-template <int Dim>
-void cut_traction(Block<Dim>& b, MaterialSlot& slot, const Eigen::Vector3d& n, int r, int i) {
-  const Weakest w = weakest_of(b, r, i);
-  const double weight = slip_share(fraction_of(b.materials[w.material], r, i));
-  const Eigen::Matrix3d s = deviator_of<Dim>(slot, r, i);
-  Eigen::Vector3d t = s * n;
-  t -= n.dot(t) * n;
-  const double size = t.norm();
-  if (!(size > w.traction)) {
-    return;
-  }
-  const Eigen::Vector3d d = weight * (w.traction / size - 1) * t;
-  const auto add = [&](int component, int x, int y) {
-    slot.store.row(field::stress + component, r)[i] += d[x] * n[y] + n[x] * d[y];
-  };
-  add(0, 0, 0);
-  add(1, 1, 1);
-  add(2, 0, 1);
-  if constexpr (Dim == 3) {
-    add(3, 1, 2);
-    add(4, 0, 2);
   }
 }
 
@@ -303,7 +392,5 @@ template void share_strain<3>(const Block<3>&,
                               double,
                               double (*)[9],
                               double*);
-template void cut_traction<2>(Block<2>&, MaterialSlot&, const Eigen::Vector3d&, int, int);
-template void cut_traction<3>(Block<3>&, MaterialSlot&, const Eigen::Vector3d&, int, int);
 
 } // namespace ballast

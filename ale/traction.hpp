@@ -6,11 +6,13 @@
 // beside void is free. Across the interface velocity gradients may jump, along it they may not
 // (Hadamard): L_k = L + a_k n^T, with
 //   a_k.n  from the material's own volume change: tr L_k = dV_k / V_k,
-//   a_k.t  from the common shear traction: gamma_k = gamma (1/G_k) / sum f_j/G_j, nothing beside
-//   void or a fluid.
+//   a_k.t  from the shear traction that all share: the one their elasticity would settle on, at most
+//          what the softest can carry (nothing beside void or a fluid); what is left of the cell's
+//          shear is slip, taken by what yields (or by the void).
 // So what is strong neither shears nor flattens with the soft matter in its cell. The cell's stress
-// is -P I + T, P = sum beta_k P_k, T = sum f_k (s_k - (n.s_k.n) I); it does the work that the
-// materials receive.
+// is -P I + T, P = sum beta_k P_k, T = sum f_k (s_k - (n.s_k.n) I); the sum of the work it does is
+// what the materials receive. n is that of one plane a cell, up to its sign: of the interface with
+// the most on both sides. With three materials the other interface is taken to lie parallel to it.
 #pragma once
 
 #include "ale/closure.hpp"
@@ -20,8 +22,8 @@
 
 namespace ballast {
 
-/// Normal of the interface in each mixed cell of a block with strength, and the pressure, modulus,
-/// stress and shear modulus of the cell from it. Last of a block's state: after update_state and
+/// Normal of the interface in each mixed cell of a block with strength; shear tractions cut to what it
+/// carries; pressure, modulus, stress and shear modulus of the cell from it. Last of a block's state: after update_state and
 /// the voids.
 template <int Dim> void update_traction(Block<Dim>& block, ThreadPool& pool);
 
@@ -44,9 +46,5 @@ void share_strain(const Block<Dim>& block,
                   double compression,
                   double (*out)[9],
                   double* work);
-
-/// Cuts the shear traction of a material's deviator to what the weakest of the cell can carry.
-template <int Dim>
-void cut_traction(Block<Dim>& block, MaterialSlot& slot, const Eigen::Vector3d& n, int row, int i);
 
 } // namespace ballast

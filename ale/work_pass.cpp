@@ -69,7 +69,7 @@ MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume, const Eig
     p.modulus = slot.store.row(slot.modulus_field(), r)[i];
     if (slot.strength) {
       p.pressure -= n.dot(deviator_of<Dim>(slot, r, i) * n);
-      p.modulus += 4.0 / 3.0 * shear_modulus(slot.material.strength);
+      p.modulus += n.squaredNorm() * 4 / 3 * shear_modulus(slot.material.strength);
     }
     p.sound_speed = std::sqrt(p.modulus * p.volume / p.mass);
   }
@@ -80,31 +80,23 @@ MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume, const Eig
 template <int Dim>
 void strain_parts(Block<Dim>& b,
                   const MixedCell& cell,
-                  const Eigen::Vector3d& n,
                   int r,
                   int i,
                   double dt,
                   const double (*own)[9],
                   int& failed) {
-  const auto each = [&](auto&& act) {
-    for (int k = 0; k < cell.count; ++k) {
-      MaterialSlot& slot = b.materials[static_cast<std::size_t>(cell.part[k].material)];
-      if (slot.strength && std::as_const(slot.store).row(field::fraction, r)[i] > 0) {
-        act(k, slot);
-      }
+  for (int k = 0; k < cell.count; ++k) {
+    MaterialSlot& slot = b.materials[static_cast<std::size_t>(cell.part[k].material)];
+    if (!slot.strength || std::as_const(slot.store).row(field::fraction, r)[i] <= 0) {
+      continue;
     }
-  };
-  each([&](int k, MaterialSlot& slot) {
     StressRows<Dim> rows = stress_rows<Dim>(slot, r, i, nullptr);
     for (int q = 0; q < WorkRows<Dim>::gradient_components; ++q) {
       rows.gradient[q] = own[k] + q;
     }
     failed += update_stress<Dim>(slot.material, dt, 1, rows);
     relax_slivers(&std::as_const(slot.store).row(field::fraction, r)[i], 1, rows);
-  });
-  each([&](int, MaterialSlot& slot) {
-    cut_traction(b, slot, n, r, i);
-  }); // by the flow stresses that now are
+  }
 }
 
 /// Energy and volumes of one mixed cell. Returns the energy that void took or gave: what the
@@ -164,7 +156,7 @@ double advance_mixed(Scene<Dim>& scene,
   double& most = b.materials[static_cast<std::size_t>(cell.part[largest].material)].store.row(
       field::fraction, r)[i];
   most += 1 - sum;
-  strain_parts<Dim>(b, cell, n, r, i, dt, own, failed);
+  strain_parts<Dim>(b, cell, r, i, dt, own, failed);
   return taken - w.work[i] + b.reference_pressure * void_change;
 }
 

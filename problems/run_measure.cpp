@@ -51,8 +51,8 @@ fraction_of(const Block<Dim>& b, const std::vector<int>& slots, const std::array
 }
 
 /// How far what the slots hold of a cell (`f`, half of it or more) reaches along an axis (side -1
-/// or 1), with what is in the next cell if that is less than half full: continuous as a surface
-/// passes from cell to cell.
+/// or 1): with what is in the next cell if that is less than half full, less what the cell behind
+/// it lacks if that is half full: continuous as a surface, slanted too, passes from cell to cell.
 template <int Dim>
 double reach(const Block<Dim>& b,
              const std::vector<int>& slots,
@@ -63,7 +63,13 @@ double reach(const Block<Dim>& b,
   const auto x = cell_range(b, axis, cell[0], cell[1], cell[2]);
   const std::size_t at = side > 0 ? 0 : 1;
   double end = x[at] + f * (x[1 - at] - x[at]);
-  cell[static_cast<std::size_t>(axis)] += side;
+  cell[static_cast<std::size_t>(axis)] -= side;
+  const double behind = fraction_of(b, slots, cell);
+  if (behind >= 0.5) {
+    const auto y = cell_range(b, axis, cell[0], cell[1], cell[2]);
+    end -= std::max(0.0, 1 - behind) * (y[1 - at] - y[at]);
+  }
+  cell[static_cast<std::size_t>(axis)] += 2 * side;
   const double beyond = fraction_of(b, slots, cell);
   if (beyond > 0 && beyond < 0.5) {
     const auto y = cell_range(b, axis, cell[0], cell[1], cell[2]);
@@ -97,7 +103,8 @@ measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, doubl
       high = std::max(high, reach(b, slots, axis, 1, cell, f));
       for (int other = 0; other < Dim; ++other) {
         if (other != axis) {
-          m.radius = std::max(m.radius, std::abs(reach(b, slots, other, 1, cell, f)));
+          m.radius = std::max(m.radius, reach(b, slots, other, 1, cell, f));
+          m.radius = std::max(m.radius, -reach(b, slots, other, -1, cell, f));
         }
       }
     }
