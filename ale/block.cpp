@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace ballast {
@@ -49,10 +50,10 @@ void place_nodes(Block<Dim>& b, const std::array<std::vector<double>, 3>& lines)
   }
 }
 
-/// Mass of the nodes of row (j, k) from the rows of cells around it.
-template <int Dim> void gather_node_mass(Block<Dim>& b, int j, int k) {
+/// Mass of the nodes of row (j, k), all or that of what slides, from the rows of cells around it.
+template <int Dim> void gather_node_mass(Block<Dim>& b, int j, int k, bool sliding) {
   const Grid& g = b.grid;
-  double* m = b.node_mass.row(g.node_row(j, k));
+  double* m = (sliding ? b.sliding.node_mass : b.node_mass).row(g.node_row(j, k));
   std::fill(m, m + g.cells[0] + 1, 0.0);
   const double* low0 = b.low_share[0].data() + g.ghost[0];
   for (int side = 0; side < (1 << (Dim - 1)); ++side) {
@@ -71,7 +72,7 @@ template <int Dim> void gather_node_mass(Block<Dim>& b, int j, int k) {
     }
     const int r = g.cell_row(cj, ck);
     for (const MaterialSlot& slot : b.materials) {
-      if (slot.is_void || !slot.store.has_row(r)) {
+      if (slot.is_void || (sliding && !slot.slides) || !slot.store.has_row(r)) {
         continue;
       }
       const double* mass = slot.store.row(field::mass, r);
@@ -83,6 +84,21 @@ template <int Dim> void gather_node_mass(Block<Dim>& b, int j, int k) {
       }
     }
   }
+}
+
+template <int Dim> void allocate_sliding(Block<Dim>& b) {
+  const auto slides = [](const MaterialSlot& slot) { return slot.slides; };
+  if (std::none_of(b.materials.begin(), b.materials.end(), slides)) {
+    return;
+  }
+  remap::Sliding<Dim>& s = b.sliding;
+  std::transform(b.materials.begin(), b.materials.end(), std::back_inserter(s.material), slides);
+  s.node_mass = s.energy = RowField::of_nodes(b.grid);
+  for (auto* nodes : {&s.jump, &s.velocity, &s.next_velocity}) {
+    nodes->fill(RowField::of_nodes(b.grid));
+  }
+  s.mass_flux.fill(RowField::of_cells(b.grid));
+  s.cell_mass = b.damped_density = RowField::of_cells(b.grid);
 }
 
 } // namespace
@@ -119,6 +135,7 @@ void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lin
     const int conserved = slot.is_void ? 1 : 3 + (slot.strength ? stress_components<Dim> + 1 : 0);
     slot.store = TileStore(g, rows_per_tile, conserved, slot.is_void ? 0 : slot.strength ? 3 : 2);
   }
+  allocate_sliding(b);
   if (strength) {
     b.stress.fill(RowField::of_cells(g));
     b.shear = b.flow_stress = RowField::of_cells(g);
@@ -138,7 +155,11 @@ template <int Dim> void compute_node_mass(Block<Dim>& b, ThreadPool& pool) {
   parallel_ranges(pool, planes, [&](int begin, int end, int) {
     for (int plane = begin; plane < end; ++plane) {
       for (int q = 0; q < rows; ++q) {
-        gather_node_mass(b, Dim == 3 ? q : plane, Dim == 3 ? plane : 0);
+        const int j = Dim == 3 ? q : plane, k = Dim == 3 ? plane : 0;
+        gather_node_mass(b, j, k, false);
+        if (b.any_sliding()) {
+          gather_node_mass(b, j, k, true);
+        }
       }
     }
   });

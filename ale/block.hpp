@@ -35,6 +35,7 @@ template <int Dim> inline constexpr int plastic_strain = 3 + stress_components<D
 struct MaterialSlot {
   Material material;
   bool is_void = false;
+  bool slides = false; ///< keeps its own velocity along interfaces with what does not (remap/sliding)
   bool strength = false;
   GaugeReference reference; ///< the material's initial state
   TileStore store;
@@ -83,6 +84,8 @@ template <int Dim> struct Block {
   std::vector<std::vector<std::array<double, 3>>> interface_normals;
   std::vector<std::int8_t> owner; ///< the only material of a cell, or mixed_cell
 
+  remap::Sliding<Dim> sliding; ///< empty unless a material slides
+  RowField damped_density;     ///< density, zero where two velocities meet: no hourglass damping there (sliding only)
   remap::Scratch remap_scratch; ///< work arrays of the remap, nothing to remember
 
   std::vector<MaterialSlot> materials; ///< in priority order; void last
@@ -93,11 +96,17 @@ template <int Dim> struct Block {
   const std::int8_t* owner_row(int r) const {
     return owner.data() + static_cast<std::ptrdiff_t>(r) * grid.cell_pitch() + grid.ghost[0];
   }
+  bool any_sliding() const { return !sliding.material.empty(); }
   bool any_strength() const { return !stress[0].empty(); }
   int void_index() const {
     return !materials.empty() && materials.back().is_void ? static_cast<int>(materials.size()) - 1 : -1;
   }
 };
+
+/// Velocity component (m/s) at node i of node row r: the node's, or that of what slides there.
+template <int Dim> double velocity_of(const Block<Dim>& b, bool sliding, std::size_t d, int r, int i) {
+  return b.velocity[d].row(r)[i] + (sliding && b.any_sliding() ? b.sliding.jump[d].row(r)[i] : 0.0);
+}
 
 /// Allocates the arrays of a block on the given mesh lines (m) and computes target mesh, volumes and
 /// mass shares. Materials must be set; their stores are made here, empty.

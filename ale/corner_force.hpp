@@ -20,7 +20,7 @@ template <int Dim> struct ForceRows {
   static constexpr int lines = 1 << (Dim - 1); ///< node rows around a row of cells
   const double* x[Dim][lines];
   const double* u[Dim][lines];
-  const double *pressure, *modulus, *volume, *density, *wave_speed;
+  const double *pressure, *modulus, *volume, *damped_density, *wave_speed;
   const double* stress[stress_components<Dim>]; ///< null without strength
   const double *shear, *flow_stress; ///< null without strength
   const double* viscosity[Dim];

@@ -19,7 +19,7 @@ template <> ForceRows<2>::ForceRows(const Block<2>& b, int j, int k) {
   pressure = b.pressure.row(r);
   modulus = b.modulus.row(r);
   volume = b.volume.row(r);
-  density = b.density.row(r);
+  damped_density = (b.any_sliding() ? b.damped_density : b.density).row(r);
   wave_speed = b.wave_speed.row(r);
   for (std::size_t s = 0; s < 3; ++s) {
     stress[s] = b.any_strength() ? b.stress[s].row(r) : nullptr;
@@ -101,7 +101,7 @@ half_step(const ForceRows<2>& in, const ForceCoefficients& c, int i, HalfStepQua
   }
   // A mode decays at drag |Gamma|^2 / corner mass = 64 * hourglass c/L in 3D; four corners give 16, hence 4.
   const double drag =
-      4 * c.hourglass * in.density[i] * in.wave_speed[i] * in.volume[i] / std::sqrt(area);
+      4 * c.hourglass * in.damped_density[i] * in.wave_speed[i] * in.volume[i] / std::sqrt(area);
 #pragma GCC unroll 4
   for (int p = 0; p < 4; ++p) {
     const double ax = Axisymmetric ? h.sx[p] - h.hoop[p] : h.sx[p];

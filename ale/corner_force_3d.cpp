@@ -19,7 +19,7 @@ template <> ForceRows<3>::ForceRows(const Block<3>& b, int j, int k) {
   pressure = b.pressure.row(r);
   modulus = b.modulus.row(r);
   volume = b.volume.row(r);
-  density = b.density.row(r);
+  damped_density = (b.any_sliding() ? b.damped_density : b.density).row(r);
   wave_speed = b.wave_speed.row(r);
   for (std::size_t s = 0; s < 5; ++s) {
     stress[s] = b.any_strength() ? b.stress[s].row(r) : nullptr;
@@ -109,7 +109,7 @@ half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex
   // a (not symmetric) stress, and the modes' sums are butterflies.
   const HexModes mu = hex_modes(ux), mv = hex_modes(uy), mw = hex_modes(uz);
   const double per_volume = 1 / h.volume;
-  const double drag = c.hourglass * in.density[i] * in.wave_speed[i] * in.volume[i] / std::sqrt(edges * (1.0 / 48));
+  const double drag = c.hourglass * in.damped_density[i] * in.wave_speed[i] * in.volume[i] / std::sqrt(edges * (1.0 / 48));
   double txx = xx, txy = xy, txz = xz, tyx = xy, tyy = yy, tyz = yz, tzx = xz, tzy = yz, tzz = zz;
   double hx[4], hy[4], hz[4];
 #pragma GCC unroll 4

@@ -45,6 +45,7 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
                      .exchange_velocity = [&b](RowField& f, int component) {
                        exchange_nodes(b.grid, b.boundary, component, f);
                      }};
+  m.sliding = b.any_sliding() ? &b.sliding : nullptr;
   for (MaterialSlot& slot : b.materials) {
     m.materials.push_back(&slot.store);
     m.least_energy.push_back(least_energy(slot.material));

@@ -176,6 +176,25 @@ template <int Dim> void row_state(Block<Dim>& b, int r, RowRuns& runs, std::vect
   }
 }
 
+/// Where nodes have two velocities, the one that moves them tells nothing of how what slides deforms: its hourglass
+/// motion is the jump between the two, and damping it would be friction.
+template <int Dim> static void row_damping(Block<Dim>& b, int j, int k) {
+  const Grid& g = b.grid;
+  const int r = g.cell_row(j, k);
+  const double* rho = b.density.row(r);
+  double* damped = b.damped_density.row(r);
+  std::copy(rho, rho + g.cells[0], damped);
+  for (int side = 0; side < (1 << (Dim - 1)); ++side) {
+    const int nr = g.node_row(j + (side & 1), k + (side >> 1 & 1));
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double* jump = b.sliding.jump[d].row(nr);
+      for (int i = 0; i < g.cells[0]; ++i) {
+        damped[i] = (jump[i] != 0) | (jump[i + 1] != 0) ? 0.0 : damped[i];
+      }
+    }
+  }
+}
+
 template <int Dim> void update_state(Block<Dim>& b, ThreadPool& pool) {
   const Grid& g = b.grid;
   std::vector<BadCell> bad(static_cast<std::size_t>(g.slabs()));
@@ -187,6 +206,9 @@ template <int Dim> void update_state(Block<Dim>& b, ThreadPool& pool) {
         const auto [j, k] = g.in_slab(s, q);
         const int r = g.cell_row(j, k);
         row_state(b, r, runs, rho);
+        if (b.any_sliding()) {
+          row_damping(b, j, k);
+        }
         if (const BadCell found = check_row(b, j, k); found.found()) {
           bad[static_cast<std::size_t>(s)] = found;
         }
@@ -215,6 +237,17 @@ template <int Dim> std::string contents(const Block<Dim>& b, const std::array<in
     }
   }
   return out;
+}
+
+/// What the sliding materials of a row of nodes have beyond the nodes' own velocity.
+template <int Dim> static void add_sliding(const Block<Dim>& b, int r, Totals& t) {
+  const double *mass = b.sliding.node_mass.row(r), *energy = b.sliding.energy.row(r);
+  for (int i = 0; i <= b.grid.cells[0]; ++i) {
+    t.kinetic_energy += energy[i];
+    for (std::size_t d = 0; d < Dim; ++d) {
+      t.momentum[d] += mass[i] * b.sliding.jump[d].row(r)[i];
+    }
+  }
 }
 
 template <int Dim> Totals totals(const Block<Dim>& b) {
@@ -259,6 +292,9 @@ template <int Dim> Totals totals(const Block<Dim>& b) {
         }
         t.momentum[d] += momentum;
         t.kinetic_energy += kinetic;
+      }
+      if (b.any_sliding()) {
+        add_sliding(b, r, t);
       }
     }
   }

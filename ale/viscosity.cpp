@@ -160,6 +160,31 @@ void viscosity_row(int count,
   }
 }
 
+/// Where two velocities meet, a slanted interface is compression along one axis and the opposite along another: no
+/// shock. There q acts by the share of the compression that the cell's volume sees.
+template <int Dim> void spare_shear(Block<Dim>& b, int j, int k) {
+  const int r = b.grid.cell_row(j, k);
+  const double *rho = b.density.row(r), *damped = b.damped_density.row(r);
+  for (int i = 0; i < b.grid.cells[0]; ++i) {
+    if (damped[i] == rho[i]) {
+      continue;
+    }
+    double rate = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      rate += b.strain_rate[d].row(r)[i];
+    }
+    if (b.axisymmetric) {
+      const double *r0 = b.position[0].row(b.grid.node_row(j, k)), *u0 = b.velocity[0].row(b.grid.node_row(j, k));
+      const double *r1 = b.position[0].row(b.grid.node_row(j + 1, k)), *u1 = b.velocity[0].row(b.grid.node_row(j + 1, k));
+      rate += (u0[i] + u0[i + 1] + u1[i] + u1[i + 1]) / (r0[i] + r0[i + 1] + r1[i] + r1[i + 1]);
+    }
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double e = b.strain_rate[d].row(r)[i];
+      b.viscosity[d].row(r)[i] *= e < 0 ? std::clamp(rate / e, 0.0, 1.0) : 1.0;
+    }
+  }
+}
+
 /// The cell of a row that strains fastest, as a limit of the step.
 template <int Dim> DtLimit fastest_cell(const Block<Dim>& b, int j, int k, double dt, double fastest) {
   const int r = b.grid.cell_row(j, k);
@@ -207,6 +232,9 @@ template <int Dim> DtLimit stable_dt(Scene<Dim>& scene) {
             viscosity_row(g.cells[0], c, e.row(r - stride) - step, e.row(r), e.row(r + stride) + step,
                           b.length[d].row(r), b.density.row(r), b.wave_speed.row(r), b.modulus.row(r),
                           b.viscosity[d].row(r), dt.data());
+          }
+          if (b.any_sliding()) {
+            spare_shear(b, j, k);
           }
           const auto low = std::min_element(dt.begin(), dt.end());
           DtLimit& limit = found[static_cast<std::size_t>(s)];

@@ -73,9 +73,10 @@ void add_momentum(const Block<Dim>& b, int i, int j, int k, double mass, const P
 
 template <int Dim>
 void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
-  NodeMomentum<Dim> nodes;
-  nodes.mass = RowField::of_nodes(b.grid);
-  nodes.momentum.fill(RowField::of_nodes(b.grid));
+  NodeMomentum<Dim> nodes, sliding;
+  nodes.mass = sliding.mass = RowField::of_nodes(b.grid);
+  nodes.momentum.fill(nodes.mass);
+  sliding.momentum.fill(nodes.mass);
   std::vector<double> shares(spec.bodies.size());
   for_each_cell(b, [&](int i, int j, int k) {
     Point lo{}, hi{};
@@ -100,7 +101,8 @@ void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
         p.specific_energy = e;
       }
       if (material >= 0) {
-        add_momentum(b, i, j, k, f * density * volume, u, nodes);
+        const bool slides = b.materials[static_cast<std::size_t>(slots.slot[static_cast<std::size_t>(material)])].slides;
+        add_momentum(b, i, j, k, f * density * volume, u, slides ? sliding : nodes);
       }
       left -= f;
     };
@@ -125,9 +127,19 @@ void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
     fill_cell<Dim>(b, i, j, k, parts);
   });
   for (std::size_t q = 0; q < nodes.mass.data().size(); ++q) {
+    const double m = nodes.mass.data()[q], ms = sliding.mass.data()[q];
+    double excess = 0;
     for (std::size_t d = 0; d < Dim; ++d) {
-      const double m = nodes.mass.data()[q];
-      b.velocity[d].data()[q] = m > 0 ? nodes.momentum[d].data()[q] / m : 0.0;
+      const double p = nodes.momentum[d].data()[q], ps = sliding.momentum[d].data()[q];
+      const double v = m > 0 ? p / m : ms > 0 ? ps / ms : 0.0;
+      b.velocity[d].data()[q] = v;
+      if (m > 0 && ms > 0) {
+        b.sliding.jump[d].data()[q] = ps / ms - v;
+        excess += 0.5 * ms * (ps / ms - v) * (ps / ms + v);
+      }
+    }
+    if (excess != 0) {
+      b.sliding.energy.data()[q] = excess;
     }
   }
 }
@@ -201,6 +213,9 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   b.materials.resize(spec.materials.size());
   for (std::size_t m = 0; m < spec.materials.size(); ++m) {
     b.materials[static_cast<std::size_t>(slots.slot[m])] = make_slot(spec.materials[m], spec.ambient_pressure);
+  }
+  for (const int m : spec.sliding) {
+    b.materials[static_cast<std::size_t>(slots.slot[static_cast<std::size_t>(m)])].slides = true;
   }
   if (needs_void(spec)) {
     b.materials.push_back(make_void());

@@ -18,6 +18,13 @@ template <int Dim, class BlockType, class Visit> void visit_fields(BlockType& b,
     visit(fmt::format("velocity_{}", d), b.velocity[d].data());
   }
   visit("node_mass", b.node_mass.data());
+  if (b.any_sliding()) {
+    visit("sliding_node_mass", b.sliding.node_mass.data());
+    visit("sliding_energy", b.sliding.energy.data());
+    for (std::size_t d = 0; d < Dim; ++d) {
+      visit(fmt::format("sliding_jump_{}", d), b.sliding.jump[d].data());
+    }
+  }
   visit("volume", b.volume.data());
 }
 

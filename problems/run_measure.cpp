@@ -10,6 +10,16 @@ namespace ballast {
 
 namespace {
 
+/// Mean over a cell's corners of the velocity of what slides there, or of the rest.
+template <int Dim> double mean_velocity(const Block<Dim>& b, bool sliding, std::size_t d, int i, int j, int k) {
+  double sum = 0;
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    const int r = b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1));
+    sum += velocity_of(b, sliding, d, r, i + (corner & 1));
+  }
+  return sum / (1 << Dim);
+}
+
 template <int Dim>
 double node_mean(
     const Block<Dim>& b, const std::array<RowField, Dim>& f, std::size_t d, int i, int j, int k) {
@@ -87,9 +97,12 @@ measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, doubl
   double low = std::numeric_limits<double>::infinity(), high = -low, momentum = 0;
   for_each_cell(b, [&](int i, int j, int k) {
     const int r = b.grid.cell_row(j, k);
-    double mass = 0;
+    double mass = 0, sliding = 0;
     for (const int s : slots) {
-      mass += b.materials[static_cast<std::size_t>(s)].store.row(field::mass, r)[i];
+      const MaterialSlot& slot = b.materials[static_cast<std::size_t>(s)];
+      const double here = slot.store.row(field::mass, r)[i];
+      mass += here;
+      sliding += slot.slides ? here : 0.0;
     }
     const std::array<int, 3> cell = {i, j, k};
     const double f = fraction_of(b, slots, cell);
@@ -97,7 +110,8 @@ measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, doubl
       return;
     }
     m.mass += mass;
-    momentum += mass * node_mean<Dim>(b, b.velocity, static_cast<std::size_t>(axis), i, j, k);
+    const auto along = static_cast<std::size_t>(axis);
+    momentum += (mass - sliding) * mean_velocity(b, false, along, i, j, k) + sliding * mean_velocity(b, true, along, i, j, k);
     if (f >= 0.5) {
       low = std::min(low, reach(b, slots, axis, -1, cell, f));
       high = std::max(high, reach(b, slots, axis, 1, cell, f));
@@ -185,7 +199,10 @@ template <int Dim>
 std::array<double, 3>
 velocity_at(const Block<Dim>& b, const std::array<int, 3>& cell, const std::array<double, 3>& at) {
   std::array<double, 3> u{};
-  double part[3] = {};
+  double part[3] = {}, sliding = 0;
+  for (const MaterialSlot& slot : b.materials) {
+    sliding += slot.slides ? slot.store.row(field::fraction, b.grid.cell_row(cell[1], cell[2]))[cell[0]] : 0.0;
+  }
   for (int d = 0; d < Dim; ++d) {
     const auto x = cell_range(b, d, cell[0], cell[1], cell[2]);
     part[d] = std::clamp((at[static_cast<std::size_t>(d)] - x[0]) / (x[1] - x[0]), 0.0, 1.0);
@@ -197,7 +214,7 @@ velocity_at(const Block<Dim>& b, const std::array<int, 3>& cell, const std::arra
     }
     const int r = b.grid.node_row(cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2 & 1));
     for (std::size_t d = 0; d < Dim; ++d) {
-      u[d] += w * b.velocity[d].row(r)[cell[0] + (corner & 1)];
+      u[d] += w * velocity_of(b, sliding > 0.5, d, r, cell[0] + (corner & 1));
     }
   }
   return u;

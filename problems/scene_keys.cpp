@@ -117,6 +117,10 @@ const SectionSpec& numerics() {
         .kind = texts,
         .doc = "materials in onion-skin order, innermost first; default: as bodies first name "
                "them. Void is last"},
+       {.name = "sliding",
+        .kind = texts,
+        .doc = "materials that slide along the others without friction: where they meet both keep their own "
+               "velocity along the interface. Eulerian meshes; default none, all stick together"},
        {.name = "dt_initial",
         .kind = quantity,
         .doc = "first step; default the stable one",

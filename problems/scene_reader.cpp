@@ -41,9 +41,8 @@ void read_motion(Deck& deck, DeckNode& node, Motion& motion) {
   motion.remap_every = in.integer("remap_every");
 }
 
-/// onion-skin order: the listed materials, each of those in use once; the rest follow in order of
-/// use.
-std::vector<int> interface_order(Deck& deck, DeckNode* list, const SceneSpec& scene) {
+/// A list of materials in use, each once, as indices into them.
+std::vector<int> listed_materials(Deck& deck, DeckNode* list, const SceneSpec& scene) {
   std::vector<int> order;
   std::vector<std::string> names;
   for (const Material& m : scene.materials) {
@@ -62,12 +61,29 @@ std::vector<int> interface_order(Deck& deck, DeckNode* list, const SceneSpec& sc
     }
     order.push_back(index);
   }
-  for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+  return order;
+}
+
+/// Onion-skin order: the listed materials, then the rest in order of use.
+std::vector<int> interface_order(Deck& deck, DeckNode* list, const SceneSpec& scene) {
+  std::vector<int> order = listed_materials(deck, list, scene);
+  for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
     if (std::find(order.begin(), order.end(), i) == order.end()) {
       order.push_back(i);
     }
   }
   return order;
+}
+
+/// What slides needs something to slide along, and a remap that brings them together.
+std::vector<int> sliding_materials(Deck& deck, DeckNode* list, const SceneSpec& scene) {
+  const std::vector<int> sliding = listed_materials(deck, list, scene);
+  if (!sliding.empty() && sliding.size() == scene.materials.size()) {
+    deck.fail_key(*list, "leaves nothing to slide along", "some of the materials, not all");
+  } else if (!sliding.empty() && scene.motion.policy == MotionPolicy::lagrangian) {
+    deck.fail_key(*list, "needs a remapped mesh: on a lagrangian one materials do not pass each other", "motion.policy = \"eulerian\", or no sliding");
+  }
+  return sliding;
 }
 
 void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
@@ -81,6 +97,7 @@ void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
   scene.energy_return = static_cast<Switch>(in.choice("energy_return"));
   n.normal = static_cast<remap::NormalMethod>(in.choice("normal"));
   scene.interface_order = interface_order(deck, in.node("interface_order"), scene);
+  scene.sliding = sliding_materials(deck, in.node("sliding"), scene);
   n.dt_initial = in.number("dt_initial", n.dt_initial);
   n.dt_growth = in.number("dt_growth", n.dt_growth);
   n.dt_max = in.number("dt_max", n.dt_max);

@@ -124,11 +124,16 @@ std::string numerics_line(const SceneSpec& scene) {
       scene.motion.policy == MotionPolicy::lagrangian
           ? "never remapped"
           : fmt::format("remapped every {} step(s)", scene.motion.remap_every);
-  return fmt::format("numerics: {}, cfl {:g}, closure {}, normals {}\n",
+  std::string slides;
+  for (const int m : scene.sliding) {
+    slides += (slides.empty() ? ", slides: " : " ") + scene.materials[static_cast<std::size_t>(m)].name;
+  }
+  return fmt::format("numerics: {}, cfl {:g}, closure {}, normals {}{}\n",
                      motion,
                      scene.numerics.cfl,
                      closures[static_cast<int>(scene.numerics.closure)],
-                     normals[static_cast<int>(scene.numerics.normal)]);
+                     normals[static_cast<int>(scene.numerics.normal)],
+                     slides);
 }
 
 } // namespace

@@ -83,6 +83,8 @@ struct SceneSpec {
   Switch energy_return = Switch::automatic;
   /// Onion-skin order: indices into `materials`, first peeled first; void is last.
   std::vector<int> interface_order;
+  /// Indices into `materials`: what keeps its own velocity along interfaces with the rest.
+  std::vector<int> sliding;
   std::vector<Gauge> gauges;
   Output output;
   Results results;

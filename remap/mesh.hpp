@@ -22,6 +22,20 @@ struct Scratch {
   RowField cell_mass, node_loss, next_node_mass;
 };
 
+/// Materials that slide along the rest. At the nodes that both own a part of they have a velocity of their own;
+/// between remaps the node's acceleration is theirs too, so the jump stays as it is, and so do the momentum
+/// (node_mass x jump) and the kinetic energy by which they differ from one velocity for the whole node.
+template <int Dim> struct Sliding {
+  std::vector<char> material;     ///< by material: does it slide? Empty: none does
+  RowField node_mass;             ///< kg of the sliding materials by node
+  std::array<RowField, Dim> jump; ///< m/s, their velocity less the node's, which is that of the rest
+  RowField energy;                ///< J by node, kinetic energy beyond 1/2 M v^2 when the jump was made
+
+  std::array<RowField, Dim> velocity, next_velocity; ///< scratch
+  std::array<RowField, Dim> mass_flux;               ///< scratch, faces
+  RowField cell_mass;                                ///< scratch
+};
+
 /// What stands beyond a side that feeds the block: one material, its history zero.
 struct Inflow {
   int material = -1; ///< -1: the side feeds nothing
@@ -48,13 +62,14 @@ template <int Dim> struct Mesh {
   const std::array<std::vector<double>, Dim>&
       low_share;                        ///< mass share of the lower node, by cell + ghost
   std::array<RowField, Dim>& swept;     ///< scratch, faces: volume swept along +axis, m3
-  std::array<RowField, Dim>& mass_flux; ///< scratch, faces: mass through the face along +axis, kg
+  std::array<RowField, Dim>& mass_flux; ///< scratch, faces: mass (but of what slides) along +axis, kg
   std::vector<TileStore*> materials;    ///< void last, if any
   bool has_void = false;
   /// Specific energy (J/kg) by material below which a return of kinetic energy may not bring it: 0 of a gas, of a
   /// condensed one (whose zero is a choice) where cold tension begins to matter. Empty: 0.
   std::vector<double> least_energy = {};
   std::vector<std::int8_t>& owner;                       ///< the only material of a cell, or -1
+  Sliding<Dim>* sliding = nullptr; ///< optional
   Scratch* scratch = nullptr; ///< optional: without it every sweep allocates its own
   std::function<void(RowField&, int)> exchange_velocity; ///< fills ghosts of a component
 
@@ -70,6 +85,7 @@ template <int Dim> struct Mesh {
   std::vector<double> reference_density = {};
   double reference_density_of(int m) const { return reference_density.empty() ? 0.0 : reference_density[static_cast<std::size_t>(m)]; }
   double least_energy_of(int m) const { return least_energy.empty() ? 0.0 : least_energy[static_cast<std::size_t>(m)]; }
+  bool slides(int m) const { return sliding != nullptr && sliding->material[static_cast<std::size_t>(m)] != 0; }
   bool is_void(int m) const { return has_void && m == material_count() - 1; }
 };
 

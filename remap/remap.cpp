@@ -224,6 +224,9 @@ void sweep_all(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long or
   if (m.scratch->cell_mass.empty()) {
     *m.scratch = {RowField::of_cells(m.grid), RowField::of_nodes(m.grid), RowField::of_nodes(m.grid)};
   }
+  if (m.sliding != nullptr) {
+    part_sliding(m, pool, report);
+  }
   for (int q = 0; q < Dim; ++q) {
     const int axis = sweep_axis(Dim, q, order);
     exchange_for_sweep(m, axis);
@@ -241,6 +244,9 @@ void sweep_all(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long or
     }
     sweep_cells(m, settings, pool, axis, report);
     sweep_nodes(m, settings, pool, axis, q == 0, report);
+  }
+  if (m.sliding != nullptr) {
+    join_sliding(m, pool, report);
   }
   if (settings.return_kinetic) {
     return_kinetic(m, pool, report);

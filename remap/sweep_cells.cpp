@@ -41,8 +41,11 @@ public:
     const int r = m_.grid.cell_row(j, k);
     const Line line = line_of(m_.grid, axis_, j, k);
     volume_fluxes(m_, s_, axis_, line, r, out);
-    double* total = own ? m_.mass_flux[static_cast<std::size_t>(axis_)].row(r) : unowned_.data();
-    bool first = true;
+    double* totals[2] = {own ? m_.mass_flux[static_cast<std::size_t>(axis_)].row(r) : unowned_.data(), nullptr};
+    if (m_.sliding != nullptr) {
+      totals[1] = own ? m_.sliding->mass_flux[static_cast<std::size_t>(axis_)].row(r) : unowned_.data();
+    }
+    bool first[2] = {true, true};
     for (int q = 0; q < m_.material_count(); ++q) {
       if (!out.present(q) || m_.is_void(q)) {
         continue;
@@ -54,9 +57,11 @@ public:
       for (int field = 2; field < store.conserved(); ++field) {
         intensive_fluxes(store, field, line, unlimited, faces_, mass, factors_, out.flux(q, field));
       }
-      if (first) {
+      const std::size_t who = m_.slides(q) ? 1 : 0;
+      double* total = totals[who];
+      if (first[who]) {
         std::copy(mass, mass + faces_, total);
-        first = false;
+        first[who] = false;
         continue;
       }
 #pragma omp simd
@@ -64,8 +69,10 @@ public:
         total[i] += mass[i];
       }
     }
-    if (first) {
-      std::fill(total, total + faces_, 0.0);
+    for (std::size_t who = 0; who < 2; ++who) {
+      if (first[who] && totals[who] != nullptr) {
+        std::fill(totals[who], totals[who] + faces_, 0.0);
+      }
     }
   }
 
@@ -98,14 +105,19 @@ public:
   }
 
 private:
-  /// Mass of all materials of the row's cells before the sweep: the coordinate in which velocities vary.
+  /// Mass of the row's cells before the sweep, of what slides apart: the coordinate in which velocities vary.
   void sum_masses(int r) {
+    sum_masses(r, false, m_.scratch->cell_mass.row(r));
+    if (m_.sliding != nullptr) {
+      sum_masses(r, true, m_.sliding->cell_mass.row(r));
+    }
+  }
+  void sum_masses(int r, bool sliding, double* sum) {
     const int n = m_.grid.cells[0];
-    double* sum = m_.scratch->cell_mass.row(r);
     bool first = true;
     for (int q = 0; q < m_.material_count(); ++q) {
       const TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
-      if (m_.is_void(q) || !store.has_row(r)) {
+      if (m_.is_void(q) || m_.slides(q) != sliding || !store.has_row(r)) {
         continue;
       }
       const double* mass = store.row(1, r);

@@ -23,10 +23,18 @@ struct SlabSums {
   double kinetic_out = 0, loss = 0;
 };
 
+/// The nodes' share in one group of materials, and what moves it: all of them, or what slides and the rest apart.
+template <int Dim> struct Group {
+  RowField& node_mass;
+  std::array<RowField, Dim>&velocity, &next_velocity;
+  const std::array<RowField, Dim>& mass_flux;
+  const RowField& cell_mass;
+};
+
 template <int Dim> class NodeSweep {
 public:
-  NodeSweep(Mesh<Dim>& mesh, const Settings& settings, const RowField& cell_mass, RowField& loss, int axis, bool first)
-      : m_(mesh), s_(settings), cell_mass_(cell_mass), loss_(loss), axis_(axis), first_(first), nodes_(mesh.grid.cells[0] + 1),
+  NodeSweep(Mesh<Dim>& mesh, const Group<Dim>& group, const Settings& settings, RowField& loss, int axis, bool first)
+      : m_(mesh), g_(group), s_(settings), loss_(loss), axis_(axis), first_(first), nodes_(mesh.grid.cells[0] + 1),
         links_(nodes_ + (axis == 0 ? 1 : 0)) {
     for (auto* v : {&flux_, &low_mass_, &high_mass_, &between_, &before_, &after_, &central_, &edge_, &lost_}) {
       v->assign(static_cast<std::size_t>(links_ + 2), 0.0);
@@ -46,7 +54,7 @@ public:
     const double *t = flux_.data(), *central = central_.data(), *edge = edge_.data();
     const double unlimited = s_.limit ? 0 : 1;
     for (std::size_t d = 0; d < Dim; ++d) {
-      const RowField& u = m_.velocity[d];
+      const RowField& u = g_.velocity[d];
       const double *u0 = u.row(r - 2 * stride) - 2 * shift, *u1 = u.row(r - stride) - shift;
       const double *u2 = u.row(r), *u3 = u.row(r + stride) + shift;
       double *momentum = out[d + 1].data(), *kinetic = out[Dim + 1].data();
@@ -67,7 +75,7 @@ public:
   void update(int j, int k, const std::vector<double>* low, const std::vector<double>* high, SlabSums& sums) {
     const Grid& g = m_.grid;
     const int r = g.node_row(j, k), step = axis_ == 0 ? 1 : 0;
-    const double* mass = m_.node_mass.row(r);
+    const double* mass = g_.node_mass.row(r);
     double *next_mass = next_mass_row(r), *loss = lost_.data();
     const double *ml = low[0].data(), *mh = high[0].data() + step;
     const double *kl = low[Dim + 1].data(), *kh = high[Dim + 1].data() + step;
@@ -77,8 +85,8 @@ public:
       loss[i] = kl[i] - kh[i];
     }
     for (std::size_t d = 0; d < Dim; ++d) {
-      const double *u = m_.velocity[d].row(r), *pl = low[d + 1].data(), *ph = high[d + 1].data() + step;
-      double* next = m_.next_velocity[d].row(r);
+      const double *u = g_.velocity[d].row(r), *pl = low[d + 1].data(), *ph = high[d + 1].data() + step;
+      double* next = g_.next_velocity[d].row(r);
 #pragma omp simd
       for (int i = 0; i < nodes_; ++i) {
         const bool holds = next_mass[i] > 1e-9 * (mass[i] + std::abs(ml[i]) + std::abs(mh[i]));
@@ -112,7 +120,7 @@ public:
     const double* mass = next_mass_row(r);
     double* loss = lost_.data();
     for (std::size_t axis = 0; axis < Dim; ++axis) {
-      double* u = m_.next_velocity[axis].row(r);
+      double* u = g_.next_velocity[axis].row(r);
       for (std::size_t side = 0; side < 2; ++side) {
         const int at = side == 0 ? 0 : g.cells[axis];
         if (!m_.fixed[axis][side] || (axis > 0 && index[axis] != at)) {
@@ -140,7 +148,7 @@ private:
   void link_factors(int r, int stride, int shift) {
     const double *t = flux_.data(), *mid = between_.data(), *lo = before_.data(), *hi = after_.data();
     const double *wl = low_mass_.data(), *wh = high_mass_.data();
-    const double *held1 = m_.node_mass.row(r - stride) - shift, *held2 = m_.node_mass.row(r);
+    const double *held1 = g_.node_mass.row(r - stride) - shift, *held2 = g_.node_mass.row(r);
     double *central = central_.data(), *edge = edge_.data();
 #pragma omp simd
     for (int i = 0; i < links_; ++i) {
@@ -200,12 +208,12 @@ private:
 
   void add_cells(const int (&cell)[3], int column, double share) {
     const Grid& g = m_.grid;
-    const RowField& face = m_.mass_flux[static_cast<std::size_t>(axis_)];
+    const RowField& face = g_.mass_flux[static_cast<std::size_t>(axis_)];
     const double* low0 = m_.low_share[0].data() + g.ghost[0];
     double* flux = flux_.data();
     if (axis_ == 0) {
       const int r = g.cell_row(cell[1], cell[2]);
-      const double *f = face.row(r), *mass = cell_mass_.row(r);
+      const double *f = face.row(r), *mass = g_.cell_mass.row(r);
       const int n = g.cells[0];
       // Link i joins node i-1 and node i through cell i-1; links 0 and n+1 are the boundary faces.
       flux[0] += share * f[0];
@@ -230,8 +238,8 @@ private:
     }
     const double low = share_of(axis_, here, false);
     const Through cells{face.row(row(here)) + column, face.row(row(here + 1)) + column,
-                        cell_mass_.row(row(std::max(here - 1, 0))) + column, cell_mass_.row(row(here)) + column,
-                        cell_mass_.row(row(std::min(here + 1, n - 1))) + column};
+                        g_.cell_mass.row(row(std::max(here - 1, 0))) + column, g_.cell_mass.row(row(here)) + column,
+                        g_.cell_mass.row(row(std::min(here + 1, n - 1))) + column};
     const auto lower = [=](int) { return low; };
     if (column < 0) {
       add(first, end, cells, [=](int i) { return share * (1 - low0[i - 1]); }, lower);
@@ -287,8 +295,8 @@ private:
   }
 
   Mesh<Dim>& m_;
+  const Group<Dim> g_;
   const Settings& s_;
-  const RowField& cell_mass_;
   RowField& loss_;
   RowField* next_mass_ = nullptr;
   int axis_;
@@ -297,19 +305,17 @@ private:
   std::vector<double> flux_, low_mass_, high_mass_, between_, before_, after_, central_, edge_, lost_;
 };
 
-} // namespace
-
 template <int Dim>
-void sweep_nodes(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int axis, bool first, Report& report) {
+void sweep_group(Mesh<Dim>& m, const Group<Dim>& group, const Settings& settings, ThreadPool& pool, int axis, bool first, Report& report) {
   const Grid& g = m.grid;
   for (std::size_t d = 0; d < Dim; ++d) {
-    m.exchange_velocity(m.velocity[d], static_cast<int>(d));
+    m.exchange_velocity(group.velocity[d], static_cast<int>(d));
   }
-  RowField &cell_mass = m.scratch->cell_mass, &loss = m.scratch->node_loss, &next_mass = m.scratch->next_node_mass;
+  RowField &loss = m.scratch->node_loss, &next_mass = m.scratch->next_node_mass;
   const int slabs = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
   std::vector<SlabSums> sums(static_cast<std::size_t>(slabs));
   parallel_ranges(pool, slabs, [&](int begin, int end, int) {
-    NodeSweep<Dim> sweep(m, settings, cell_mass, loss, axis, first);
+    NodeSweep<Dim> sweep(m, group, settings, loss, axis, first);
     sweep.set_next_mass(&next_mass);
     using Links = std::array<std::vector<double>, Dim + 2>;
     Links empty;
@@ -338,15 +344,27 @@ void sweep_nodes(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int a
     }
   });
   for (std::size_t d = 0; d < Dim; ++d) {
-    m.velocity[d].swap(m.next_velocity[d]);
+    group.velocity[d].swap(group.next_velocity[d]);
   }
-  m.node_mass.swap(next_mass);
+  group.node_mass.swap(next_mass);
   for (const SlabSums& s : sums) {
     for (std::size_t d = 0; d < 3; ++d) {
       report.momentum_out[d] += s.momentum_out[d];
     }
     report.kinetic_out += s.kinetic_out;
     report.kinetic_loss += s.loss;
+  }
+}
+
+} // namespace
+
+template <int Dim>
+void sweep_nodes(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int axis, bool first, Report& report) {
+  const bool alone = m.sliding == nullptr;
+  sweep_group<Dim>(m, {m.node_mass, m.velocity, m.next_velocity, m.mass_flux, m.scratch->cell_mass}, settings, pool, axis, first && alone, report);
+  if (!alone) {
+    Sliding<Dim>& s = *m.sliding;
+    sweep_group<Dim>(m, {s.node_mass, s.velocity, s.next_velocity, s.mass_flux, s.cell_mass}, settings, pool, axis, false, report);
   }
 }
 

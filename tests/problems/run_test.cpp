@@ -53,6 +53,11 @@ const BallScene lead_in_void = {.title = "ball",
                                 .r = R"(from = "0 mm", to = "14 mm", size = "0.7 mm")",
                                 .z = R"(from = "-8 mm", to = "16 mm", size = "0.7 mm")"};
 
+BallScene sliding(BallScene b) {
+  b.around += "\nnumerics = { sliding = [\"muscle\"] }";
+  return b;
+}
+
 // Gas a million times softer than the metal beside it.
 const BallScene copper_in_air = {.title = "copper through air",
                                  .material = "copper_ofhc",
@@ -164,6 +169,7 @@ TEST(Run, SameBitsForAnyNumberOfThreads) {
   same_bits<2>(deck_of(lead_in_void));
   same_bits<2>(open_deck);
   same_bits<3>(deck_3d);
+  same_bits<2>(deck_of(sliding(lead_in_void)));
 }
 
 template <int Dim> void restarts(const SceneSpec& spec) {
@@ -195,8 +201,10 @@ template <int Dim> void restarts(const SceneSpec& spec) {
 
 TEST(Run, RestartGoesOnBitForBit) {
   restarts<2>(scene_of(deck_of(lead_in_void)));
+  restarts<2>(scene_of(deck_of(sliding(lead_in_void))));
   SceneSpec every_other = scene_of(deck_3d); // between remaps positions and volumes are not the target mesh's
   every_other.motion.remap_every = 2;
+  every_other.sliding = {1};
   restarts<3>(every_other);
 }
 

@@ -1,0 +1,160 @@
+// Laws of sliding: along an interface nothing passes from one side to the other; whatever they do, momentum and
+// energy are kept.
+#include "ale/phases.hpp"
+#include "problems/build_scene.hpp"
+#include "problems/scene_reader.hpp"
+#include "tests/observers.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace ballast {
+namespace {
+
+SceneSpec scene_of(const std::string& text) {
+  Deck d = Deck::parse(text, "test.toml", {});
+  SceneSpec s = read_scene(d);
+  d.throw_if_errors();
+  return s;
+}
+
+/// A rod of lead without strength, its surface 0.3 of a cell beyond a mesh line, drawn along z through water at rest.
+std::string rod(bool sliding) {
+  return fmt::format(R"(
+title = "rod"
+geometry = "axisymmetric"
+end_time = "3 us"
+ambient = {{ pressure = "0 Pa" }}
+{}
+[[body]]
+name = "water"
+material = "water"
+shape = {{ box = {{ from = ["0 mm", "-20 mm"], to = ["8 mm", "20 mm"] }} }}
+[[body]]
+name = "rod"
+material = "lead"
+shape = {{ box = {{ from = ["0 mm", "-20 mm"], to = ["2.65 mm", "20 mm"] }} }}
+velocity = ["0 m/s", "800 m/s"]
+[materials.lead]
+strength = "none"
+[mesh]
+r = {{ from = "0 mm", to = "8 mm", size = "0.5 mm" }}
+z = {{ from = "-20 mm", to = "20 mm", size = "0.5 mm" }}
+)", sliding ? R"(numerics = { sliding = ["water"] })" : "");
+}
+
+/// Largest departures of the rod and of the water from the speeds they start with, in the middle of their length, where
+/// no wave from the ends has come.
+std::array<double, 2> departures(bool sliding) {
+  const SceneSpec spec = scene_of(rod(sliding));
+  Scene<2> scene = build_scene<2>(spec, 1);
+  Clock clock;
+  clock.end_time = spec.end_time;
+  run(scene, clock);
+  EXPECT_GT(clock.step, 10);
+  const Block<2>& b = scene.blocks[0];
+  std::array<double, 2> worst{};
+  const int j = b.grid.cells[1] / 2, r = b.grid.node_row(j, 0);
+  const auto see = [&](std::size_t who, double departure) { worst[who] = std::max(worst[who], std::abs(departure)); };
+  for (int i = 0; i <= 6; ++i) {
+    see(0, b.velocity[1].row(r)[i] - 800);
+  }
+  for (int i = 5; i <= b.grid.cells[0]; ++i) {
+    see(1, velocity_of(b, true, 1, r, i));
+  }
+  return worst;
+}
+
+TEST(Sliding, AlongAStraightInterfaceBothKeepTheirSpeed) {
+  const auto worst = departures(true);
+  EXPECT_LT(worst[0], 1e-9); // of 800 m/s
+  EXPECT_LT(worst[1], 1e-9);
+}
+
+TEST(Sliding, WithoutItTheInterfaceDrags) {
+  const auto worst = departures(false);
+  EXPECT_GT(worst[1], 100);
+}
+
+/// A ball of lead into muscle, with void and all.
+template <int Dim> void expect_conserved(const std::string& text) {
+  const SceneSpec spec = scene_of(text);
+  Scene<Dim> scene = build_scene<Dim>(spec, 2);
+  const Totals start = totals(scene.blocks[0]);
+  Clock clock;
+  clock.end_time = spec.end_time;
+  run(scene, clock);
+  const Totals end = totals(scene.blocks[0]);
+  const Ledger& l = scene.ledger;
+  const auto axis = static_cast<std::size_t>(Dim - 1);
+  const double in = start.kinetic_energy + start.internal() + l.boundary_work + l.ambient_work + l.void_work;
+  const double out = end.kinetic_energy + end.internal() + l.remap_kinetic_loss + l.energy_out + l.sliver_energy;
+  EXPECT_NEAR(out / in, 1, 1e-12) << spec.title;
+  EXPECT_NEAR((end.momentum[axis] + l.momentum_out[axis]) / start.momentum[axis], 1, 1e-12) << spec.title;
+  bool jumps = false;
+  for (const double u : scene.blocks[0].sliding.jump[axis].data()) {
+    jumps = jumps || std::abs(u) > 10;
+  }
+  EXPECT_TRUE(jumps) << spec.title << ": nothing slid";
+}
+
+TEST(Sliding, ImpactKeepsMomentumAndEnergy) {
+  expect_conserved<2>(R"(
+title = "ball, RZ"
+geometry = "axisymmetric"
+end_time = "8 us"
+ambient = { pressure = "0 Pa" }
+numerics = { sliding = ["muscle"] }
+[[body]]
+name = "ball"
+material = "lead"
+shape = { sphere = { centre = ["0 mm", "-3.5 mm"], radius = "3 mm" } }
+velocity = ["0 m/s", "600 m/s"]
+[[body]]
+name = "tissue"
+material = "muscle"
+shape = { box = { from = ["0 mm", "0 mm"], to = ["12 mm", "14 mm"] } }
+[mesh]
+r = { from = "0 mm", to = "16 mm", size = "0.7 mm" }
+z = { from = "-8 mm", to = "18 mm", size = "0.7 mm" }
+)");
+  expect_conserved<3>(R"(
+title = "ball, 3D"
+geometry = "3d"
+symmetry = ["x", "y"]
+end_time = "8 us"
+ambient = { pressure = "0 Pa" }
+motion = { remap_every = 3 }
+numerics = { sliding = ["lead"] }
+[[body]]
+name = "ball"
+material = "lead"
+shape = { sphere = { centre = ["0 mm", "0 mm", "-3.5 mm"], radius = "3 mm" } }
+velocity = ["0 m/s", "0 m/s", "600 m/s"]
+[[body]]
+name = "tissue"
+material = "muscle"
+shape = { box = { from = ["0 mm", "0 mm", "0 mm"], to = ["8 mm", "8 mm", "8 mm"] } }
+[mesh]
+x = { from = "0 mm", to = "11 mm", size = "1 mm" }
+y = { from = "0 mm", to = "11 mm", size = "1 mm" }
+z = { from = "-8 mm", to = "12 mm", size = "1 mm" }
+)");
+}
+
+/// Bodies that share nodes at the start keep their own speeds too.
+TEST(Sliding, StartsWithBothSpeeds) {
+  Scene<2> scene = build_scene<2>(scene_of(rod(true)), 1);
+  const Block<2>& b = scene.blocks[0];
+  const int r = b.grid.node_row(40, 0);
+  EXPECT_NEAR(b.velocity[1].row(r)[5], 800, 1e-9);
+  EXPECT_NEAR(b.velocity[1].row(r)[6], 800, 1e-9);
+  EXPECT_NEAR(velocity_of(b, true, 1, r, 6), 0, 1e-9);
+  EXPECT_EQ(b.velocity[1].row(r)[7], 0);
+  const Totals t = totals(b);
+  EXPECT_NEAR(t.kinetic_energy / (0.5 * t.mass[1] * 800 * 800), 1, 1e-12);
+}
+
+} // namespace
+} // namespace ballast
