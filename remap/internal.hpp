@@ -22,15 +22,16 @@ template <int Dim>
 void sweep_cells(Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, int axis, Report& report);
 
 /// Nodes' part: momentum on the dual mesh with the cells' mass fluxes. Kinetic energy lost is added up by node
-/// in scratch.node_loss, from zero at the `first` sweep (sliding: from part_sliding).
+/// in scratch.node_loss, from zero at the `first` sweep (sliding: part_sliding zeroes it).
 template <int Dim>
 void sweep_nodes(Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, int axis, bool first, Report& report);
 
 /// Before the sweeps: the node's mass and velocity are those of what does not slide, sliding.velocity that of what does;
-/// scratch.node_loss starts with the difference between its kinetic energy and the one kept.
+/// sliding.loss starts with the difference between its kinetic energy and the one kept, scratch.node_loss with zero.
 template <int Dim> void part_sliding(Mesh<Dim>& mesh, ThreadPool& pool, Report& report);
 
-/// After them: across the interface both move as one, along it each keeps its velocity. The energy of that impact is loss.
+/// After them: across the interface both move as one, along it each keeps its velocity. The energy of that impact is
+/// loss; it and that of part_sliding become heat of what slides.
 template <int Dim> void join_sliding(Mesh<Dim>& mesh, ThreadPool& pool, Report& report);
 
 /// Gives every node's loss to its cells by corner mass, every cell's to its materials by mass.

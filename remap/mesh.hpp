@@ -34,6 +34,7 @@ template <int Dim> struct Sliding {
   std::array<RowField, Dim> velocity, next_velocity; ///< scratch
   std::array<RowField, Dim> mass_flux;               ///< scratch, faces
   RowField cell_mass;                                ///< scratch
+  RowField loss;                                     ///< scratch, J by node: what is to come back as heat
 };
 
 /// What stands beyond a side that feeds the block: one material, its history zero.

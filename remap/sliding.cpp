@@ -11,11 +11,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace ballast::remap {
 
 namespace {
 
+constexpr double largest_fall = 0.5; ///< of what a material has above its least energy that a return may take
 constexpr double least_share = 1e-3; ///< of the node's mass: a trace of either moves with the other
 
 /// Fraction of a cell that slides less the fraction of the rest, at the nearest cell of the mesh.
@@ -84,7 +87,7 @@ public:
       }
       if (sliding > 0) {
         const double loss = rest > 0 ? meet(i, j, k, rest, sliding) : take(r, i);
-        m_.scratch->node_loss.row(r)[i] += loss;
+        s_.loss.row(r)[i] += loss;
         lost += loss;
       }
     }
@@ -133,15 +136,85 @@ private:
   Sliding<Dim>& s_;
 };
 
-/// Calls row(j, k) -> double for all rows of nodes; the sum, in the same order for any threads.
-template <int Dim, class Row> double sum_node_rows(const Grid& g, ThreadPool& pool, Row&& row) {
-  const int planes = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
-  std::vector<double> sums(static_cast<std::size_t>(planes), 0.0);
-  parallel_ranges(pool, planes, [&](int begin, int end, int) {
-    for (int plane = begin; plane < end; ++plane) {
-      for (int q = 0; q < rows; ++q) {
-        sums[static_cast<std::size_t>(plane)] += row(Dim == 3 ? q : plane, Dim == 3 ? plane : 0);
+/// Gives every node's loss to what slides around it, by mass.
+template <int Dim> class Return {
+public:
+  explicit Return(Mesh<Dim>& m) : m_(m) {}
+
+  /// Heat given to the cells of a slab, J.
+  double slab(int s) const {
+    double given = 0;
+    std::vector<double> gain(static_cast<std::size_t>(m_.grid.cells[0]));
+    for (int q = 0; q < m_.grid.rows_per_slab(); ++q) {
+      const auto [j, k] = m_.grid.in_slab(s, q);
+      if (gains(j, k, gain)) {
+        given += give(m_.grid.cell_row(j, k), gain);
       }
+    }
+    return given;
+  }
+
+private:
+  /// J/kg that what slides in the cells of a row gains; false: nothing does.
+  bool gains(int j, int k, std::vector<double>& gain) const {
+    const Grid& g = m_.grid;
+    const Sliding<Dim>& s = *m_.sliding;
+    std::fill(gain.begin(), gain.end(), 0.0);
+    bool any = false;
+    for (int corner = 0; corner < (1 << Dim); ++corner) {
+      const int up[3] = {corner & 1, corner >> 1 & 1, corner >> 2 & 1}, index[3] = {0, j, k};
+      double row_share = 1;
+      for (int a = 1; a < Dim; ++a) {
+        row_share *= share(a, index[a], up[a]);
+      }
+      const int r = g.node_row(j + up[1], k + up[2]);
+      const double *loss = s.loss.row(r) + up[0], *mass = s.node_mass.row(r) + up[0];
+      for (int i = 0; i < g.cells[0]; ++i) {
+        if (loss[i] != 0 && mass[i] > 0) {
+          gain[static_cast<std::size_t>(i)] += row_share * share(0, i, up[0]) * loss[i] / mass[i];
+          any = true;
+        }
+      }
+    }
+    return any;
+  }
+
+  double share(int axis, int cell, int high) const {
+    const auto a = static_cast<std::size_t>(axis);
+    const double low = m_.low_share[a][static_cast<std::size_t>(cell + m_.grid.ghost[a])];
+    return high != 0 ? 1 - low : low;
+  }
+
+  double give(int r, const std::vector<double>& gain) const {
+    double given = 0;
+    for (int q = 0; q < m_.material_count(); ++q) {
+      TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
+      if (!m_.slides(q) || !store.has_row(r)) {
+        continue;
+      }
+      const double *mass = std::as_const(store).row(1, r), least = m_.least_energy_of(q);
+      double* e = store.row(2, r);
+      for (int i = 0; i < m_.grid.cells[0]; ++i) {
+        if (mass[i] > 0 && gain[static_cast<std::size_t>(i)] != 0) {
+          const double most_fall = std::min(0.0, -largest_fall * (e[i] - least));
+          const double rise = std::max(gain[static_cast<std::size_t>(i)], most_fall);
+          e[i] += rise;
+          given += mass[i] * rise;
+        }
+      }
+    }
+    return given;
+  }
+
+  Mesh<Dim>& m_;
+};
+
+/// Sum of f(index) over slabs or planes, in the same order for any threads.
+template <class Function> double sum_in_order(int count, ThreadPool& pool, Function&& f) {
+  std::vector<double> sums(static_cast<std::size_t>(count), 0.0);
+  parallel_ranges(pool, count, [&](int begin, int end, int) {
+    for (int q = begin; q < end; ++q) {
+      sums[static_cast<std::size_t>(q)] = f(q);
     }
   });
   double sum = 0;
@@ -149,6 +222,17 @@ template <int Dim, class Row> double sum_node_rows(const Grid& g, ThreadPool& po
     sum += s;
   }
   return sum;
+}
+
+/// Sum of row(j, k) over all rows of nodes.
+template <int Dim, class Row> double sum_node_rows(const Grid& g, ThreadPool& pool, Row&& row) {
+  return sum_in_order(g.slabs() + 1, pool, [&](int plane) {
+    double sum = 0;
+    for (int q = 0; q < (Dim == 3 ? g.cells[1] + 1 : 1); ++q) {
+      sum += row(Dim == 3 ? q : plane, Dim == 3 ? plane : 0);
+    }
+    return sum;
+  });
 }
 
 } // namespace
@@ -159,7 +243,8 @@ template <int Dim> void part_sliding(Mesh<Dim>& m, ThreadPool& pool, Report& rep
   const int count = m.grid.cells[0] + 1;
   report.kinetic_loss += sum_node_rows<Dim>(m.grid, pool, [&](int j, int k) {
     const int r = m.grid.node_row(j, k);
-    double *mass = m.node_mass.row(r), *loss = m.scratch->node_loss.row(r);
+    double *mass = m.node_mass.row(r), *loss = s.loss.row(r), *by_sweeps = m.scratch->node_loss.row(r);
+    std::fill(by_sweeps, by_sweeps + count, 0.0);
     const double *sliding = s.node_mass.row(r), *energy = s.energy.row(r);
     for (int i = 0; i < count; ++i) {
       const double rest = mass[i] - sliding[i];
@@ -186,6 +271,8 @@ template <int Dim> void part_sliding(Mesh<Dim>& m, ThreadPool& pool, Report& rep
 template <int Dim> void join_sliding(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
   Join<Dim> join(m);
   report.kinetic_loss += sum_node_rows<Dim>(m.grid, pool, [&](int j, int k) { return join.row(j, k); });
+  Return<Dim> back(m);
+  report.kinetic_returned += sum_in_order(m.grid.slabs(), pool, [&](int slab) { return back.slab(slab); });
 }
 
 template void part_sliding<2>(Mesh<2>&, ThreadPool&, Report&);
