@@ -36,8 +36,8 @@ public:
   NodeSweep(Mesh<Dim>& mesh, const Group<Dim>& group, const Settings& settings, RowField& loss, int axis, bool first)
       : m_(mesh), g_(group), s_(settings), loss_(loss), axis_(axis), first_(first), nodes_(mesh.grid.cells[0] + 1),
         links_(nodes_ + (axis == 0 ? 1 : 0)) {
-    for (auto* v : {&flux_, &low_mass_, &high_mass_, &between_, &before_, &after_, &central_, &edge_, &lost_}) {
-      v->assign(static_cast<std::size_t>(links_ + 2), 0.0);
+    for (auto* v : {&flux_, &low_, &high_, &faces_low_, &faces_high_, &central_, &edge_, &lost_, &mass_rows_[0], &mass_rows_[1], &mass_rows_[2]}) {
+      v->assign(static_cast<std::size_t>(links_ + 4), 0.0);
     }
   }
 
@@ -146,15 +146,15 @@ public:
 private:
   /// What the links' masses say about rises of velocity along them; the same for every component.
   void link_factors(int r, int stride, int shift) {
-    const double *t = flux_.data(), *mid = between_.data(), *lo = before_.data(), *hi = after_.data();
-    const double *wl = low_mass_.data(), *wh = high_mass_.data();
+    const double *t = flux_.data(), *lo = before_, *mid = between_, *hi = after_;
+    const double *low = low_.data(), *high = high_.data();
     const double *held1 = g_.node_mass.row(r - stride) - shift, *held2 = g_.node_mass.row(r);
     double *central = central_.data(), *edge = edge_.data();
 #pragma omp simd
     for (int i = 0; i < links_; ++i) {
-      const double give = t[i], w1 = wl[i], w2 = wh[i], h1 = held1[i], h2 = held2[i], mass_a = lo[i], mass_c = hi[i];
+      const double give = t[i], m = mid[i], w1 = low[i] * m, w2 = high[i] * m, h1 = held1[i], h2 = held2[i], mass_a = lo[i], mass_c = hi[i];
       const std::uint64_t positive = where_positive(give);
-      const double behind = select(positive, mass_a, mass_c) + 1e-300, ahead = mid[i] + 1e-300;
+      const double behind = select(positive, mass_a, mass_c) + 1e-300, ahead = m + 1e-300;
       // From the node to the middle of what leaves; no further than what stays behind, so that a node
       // beside void that gives all it has gives its own velocity.
       const double left = select(positive, h1, h2) - std::abs(give);
@@ -166,21 +166,84 @@ private:
     }
   }
 
-  /// Dual mass flux, and the cell masses below, between and above the two nodes of every link.
+  /// Dual mass flux of the links below the nodes of row (j, k), and the cell masses that their factors take. Both are
+  /// linear in what the columns of cells beside the link hold, so those are summed first, weighted by the shares across
+  /// the axis: S of masses by layer of cells, T of face fluxes by layer of faces. Then flux = w_high T_low + w_low T_high.
   void dual_fluxes(int j, int k) {
     const Grid& g = m_.grid;
-    for (auto* v : {&flux_, &low_mass_, &high_mass_, &between_, &before_, &after_}) {
-      std::fill(v->begin(), v->end(), 0.0);
+    const int n = g.cells[static_cast<std::size_t>(axis_)];
+    double *flux = flux_.data(), *low = low_.data(), *high = high_.data();
+    if (axis_ == 0) {
+      double *S = masses(1), *T = faces_low_.data();
+      sum_columns(j, k, g_.cell_mass, -1, 1, n + 1, S); // link i joins node i - 1 and node i through cell i - 1
+      sum_columns(j, k, g_.mass_flux[0], 0, 0, n + 1, T);
+      S[-1] = S[0] = S[1];
+      S[n + 2] = S[n + 1] = S[n];
+      const double* low0 = m_.low_share[0].data() + g.ghost[0];
+#pragma omp simd
+      for (int i = 1; i <= n; ++i) {
+        const double w = low0[i - 1], rest = 1 - w;
+        low[i] = w;
+        high[i] = rest;
+        flux[i] = rest * T[i - 1] + w * T[i];
+      }
+      low[0] = high[0] = low[n + 1] = high[n + 1] = 0; // the boundary faces: no cell, no rise
+      flux[0] = T[0];
+      flux[n + 1] = T[n];
+      set_masses(S - 1, S, S + 1);
+      return;
     }
-    // A link along axis 0 lies in one column of cells and 2^(Dim-1) rows; along the others it touches two
-    // columns, and rows only to the sides of the remaining axis.
+    const int at = axis_ == 1 ? j : k, here = at - 1; // the layer of cells that the links pass through
+    const auto layer = [&](int q) { return axis_ == 1 ? std::array<int, 2>{q, k} : std::array<int, 2>{j, q}; };
+    const auto masses_of = [&](int q, double* out) {
+      const auto [cj, ck] = layer(std::clamp(q, 0, n - 1));
+      sum_columns(cj, ck, g_.cell_mass, 0, 0, links_, out);
+    };
+    const auto fluxes_of = [&](int q, std::vector<double>& out) {
+      const auto [cj, ck] = layer(std::clamp(q, 0, n));
+      sum_columns(cj, ck, g_.mass_flux[static_cast<std::size_t>(axis_)], 0, 0, links_, out.data());
+    };
+    if (last_ == (axis_ == 1 ? std::array<int, 2>{j - 1, k} : std::array<int, 2>{j, k - 1})) { // the link below: most is known
+      std::swap(faces_low_, faces_high_);
+      std::swap(mass_rows_[0], mass_rows_[1]);
+      std::swap(mass_rows_[1], mass_rows_[2]);
+    } else {
+      fluxes_of(here, faces_low_);
+      masses_of(here - 1, masses(0));
+      masses_of(here, masses(1));
+    }
+    fluxes_of(here + 1, faces_high_);
+    masses_of(here + 1, masses(2));
+    last_ = {j, k};
+    const bool outside = at == 0 || at == n + 1;
+    const double w = outside ? 1.0 : share_of(axis_, here, false), *T_low = faces_low_.data(), *T_high = faces_high_.data();
+    std::fill(low, low + links_, outside ? 0.0 : w);
+    std::fill(high, high + links_, outside ? 0.0 : 1 - w);
+#pragma omp simd
+    for (int i = 0; i < links_; ++i) {
+      flux[i] = (1 - w) * T_low[i] + w * T_high[i];
+    }
+    set_masses(masses(0), masses(1), masses(2));
+  }
+
+  double* masses(std::size_t q) { return mass_rows_[q].data() + 1; }
+  void set_masses(const double* before, const double* between, const double* after) {
+    before_ = before;
+    between_ = between;
+    after_ = after;
+  }
+
+  /// out[i] for i in [first, end): sum over the columns of cells around link i of row (j, k), each by its share across the
+  /// axis, of the row's value at i + shift (and one column lower where the link has cells on both sides of axis 0). The
+  /// index along the sweep's own axis is taken as it is.
+  void sum_columns(int j, int k, const RowField& of, int shift, int first, int end, double* out) const {
+    const Grid& g = m_.grid;
+    std::fill(out + first, out + end, 0.0);
     const int index[3] = {0, j, k};
     for (int side = 0; side < (1 << (Dim - 1)); ++side) {
-      int cell[3] = {0, j, k};
+      int cell[3] = {0, j, k}, bit = 0, column = 0;
       double share = 1;
-      int bit = 0;
       bool inside = true;
-      int column = 0;
       for (int axis = 0; axis < Dim; ++axis) {
         if (axis == axis_) {
           continue;
@@ -194,8 +257,28 @@ private:
         inside = inside && cell[axis] >= 0 && cell[axis] < g.cells[static_cast<std::size_t>(axis)];
         share *= inside ? share_of(axis, cell[axis], lower) : 0.0;
       }
-      if (inside) {
-        add_cells(cell, column, share);
+      if (!inside) {
+        continue;
+      }
+      const double* value = of.row(g.cell_row(cell[1], cell[2])) + shift;
+      if (axis_ == 0) {
+#pragma omp simd
+        for (int i = first; i < end; ++i) {
+          out[i] += share * value[i];
+        }
+        continue;
+      }
+      const double* low0 = m_.low_share[0].data() + g.ghost[0];
+      if (column < 0) {
+#pragma omp simd
+        for (int i = 1; i <= g.cells[0]; ++i) {
+          out[i] += share * (1 - low0[i - 1]) * value[i - 1];
+        }
+      } else {
+#pragma omp simd
+        for (int i = 0; i < g.cells[0]; ++i) {
+          out[i] += share * low0[i] * value[i];
+        }
       }
     }
   }
@@ -204,70 +287,6 @@ private:
   double share_of(int axis, int cell, bool high) const {
     const double low = m_.low_share[static_cast<std::size_t>(axis)][static_cast<std::size_t>(cell + m_.grid.ghost[static_cast<std::size_t>(axis)])];
     return high ? 1 - low : low;
-  }
-
-  void add_cells(const int (&cell)[3], int column, double share) {
-    const Grid& g = m_.grid;
-    const RowField& face = g_.mass_flux[static_cast<std::size_t>(axis_)];
-    const double* low0 = m_.low_share[0].data() + g.ghost[0];
-    double* flux = flux_.data();
-    if (axis_ == 0) {
-      const int r = g.cell_row(cell[1], cell[2]);
-      const double *f = face.row(r), *mass = g_.cell_mass.row(r);
-      const int n = g.cells[0];
-      // Link i joins node i-1 and node i through cell i-1; links 0 and n+1 are the boundary faces.
-      flux[0] += share * f[0];
-      flux[n + 1] += share * f[n];
-      add(1, n + 1, {f - 1, f, mass - 2, mass - 1, mass}, [=](int) { return share; }, [=](int i) { return low0[i - 1]; });
-      return;
-    }
-    // The link below node row `cell[axis]`: through the cell under it.
-    const int n = g.cells[static_cast<std::size_t>(axis_)], at = cell[axis_], here = at - 1;
-    int c[3] = {cell[0], cell[1], cell[2]};
-    const auto row = [&](int q) {
-      c[axis_] = q;
-      return g.cell_row(c[1], c[2]);
-    };
-    const int first = column < 0 ? 1 : 0, end = g.cells[0] + first;
-    if (at == 0 || at == n + 1) {
-      const double* f = face.row(row(at == 0 ? 0 : n));
-      for (int i = first; i < end; ++i) {
-        flux[i] += share * share_of(0, i + column, column < 0) * f[i + column];
-      }
-      return;
-    }
-    const double low = share_of(axis_, here, false);
-    const Through cells{face.row(row(here)) + column, face.row(row(here + 1)) + column,
-                        g_.cell_mass.row(row(std::max(here - 1, 0))) + column, g_.cell_mass.row(row(here)) + column,
-                        g_.cell_mass.row(row(std::min(here + 1, n - 1))) + column};
-    const auto lower = [=](int) { return low; };
-    if (column < 0) {
-      add(first, end, cells, [=](int i) { return share * (1 - low0[i - 1]); }, lower);
-    } else {
-      add(first, end, cells, [=](int i) { return share * low0[i]; }, lower);
-    }
-  }
-
-  /// Rows of face fluxes below and above the cells that links pass through, and of the masses of the
-  /// cells before, these, and after.
-  struct Through {
-    const double *f_low, *f_high, *before, *between, *after;
-  };
-
-  template <class Share, class Low>
-  void add(int first, int end, const Through& c, Share&& share_at, Low&& low_at) {
-    double *flux = flux_.data(), *low_mass = low_mass_.data(), *high_mass = high_mass_.data();
-    double *before = before_.data(), *between = between_.data(), *after = after_.data();
-#pragma omp simd
-    for (int i = first; i < end; ++i) {
-      const double share = share_at(i), low = low_at(i), mass = c.between[i];
-      flux[i] += share * ((1 - low) * c.f_low[i] + low * c.f_high[i]);
-      low_mass[i] += share * low * mass;
-      high_mass[i] += share * (1 - low) * mass;
-      before[i] += share * c.before[i];
-      between[i] += share * mass;
-      after[i] += share * c.after[i];
-    }
   }
 
   void boundary_sums(int j, int k, const std::vector<double>* low, const std::vector<double>* high, int step, SlabSums& sums) {
@@ -302,7 +321,10 @@ private:
   int axis_;
   bool first_; ///< of the sweeps whose losses are returned together
   int nodes_, links_;
-  std::vector<double> flux_, low_mass_, high_mass_, between_, before_, after_, central_, edge_, lost_;
+  std::vector<double> flux_, low_, high_, faces_low_, faces_high_, central_, edge_, lost_;
+  std::array<std::vector<double>, 3> mass_rows_; ///< S of three layers
+  const double *before_ = nullptr, *between_ = nullptr, *after_ = nullptr;
+  std::array<int, 2> last_ = {-9, -9}; ///< row of nodes whose links were the last
 };
 
 template <int Dim>
