@@ -19,6 +19,7 @@ namespace ballast::remap {
 namespace {
 
 constexpr double largest_fall = 0.5; ///< of what a material has above its least energy that a return may take
+constexpr double sliver_share = 1e-4; ///< of a cell, by mass: what holds less gets no heat back, it would boil
 constexpr double least_share = 1e-3; ///< of the node's mass: a trace of either moves with the other
 
 /// Fraction of a cell that slides less the fraction of the rest, at the nearest cell of the mesh.
@@ -192,10 +193,11 @@ private:
       if (!m_.slides(q) || !store.has_row(r)) {
         continue;
       }
-      const double *mass = std::as_const(store).row(1, r), least = m_.least_energy_of(q);
+      const double *mass = std::as_const(store).row(1, r), *volume = m_.volume.row(r);
+      const double least = m_.least_energy_of(q), sliver = sliver_share * m_.reference_density_of(q);
       double* e = store.row(2, r);
       for (int i = 0; i < m_.grid.cells[0]; ++i) {
-        if (mass[i] > 0 && gain[static_cast<std::size_t>(i)] != 0) {
+        if (mass[i] > sliver * volume[i] && gain[static_cast<std::size_t>(i)] != 0) {
           const double most_fall = std::min(0.0, -largest_fall * (e[i] - least));
           const double rise = std::max(gain[static_cast<std::size_t>(i)], most_fall);
           e[i] += rise;
