@@ -37,7 +37,8 @@ public:
       }
     });
   }
-  double speed(int r_cell, int j, int k, int i) const {
+  double speed(int j, int k, int i) const {
+    const int r_cell = b_.grid.cell_row(j, k);
     double sum = 0, sliding = 0;
     for (const MaterialSlot& slot : b_.materials) {
       sliding += slot.slides ? slot.store.row(field::fraction, r_cell)[i] : 0.0;
@@ -125,7 +126,7 @@ io::GridDump dump_block(const Block<Dim>& b, remap::NormalMethod normal, const s
   });
   {
     std::vector<float> v;
-    for_each_cell(b, [&](int i, int j, int k) { v.push_back(static_cast<float>(out.speed(0, j, k, i))); });
+    for_each_cell(b, [&](int i, int j, int k) { v.push_back(static_cast<float>(out.speed(j, k, i))); });
     dump.cell_arrays.push_back({"speed", 1, std::move(v)});
   }
   const auto wanted = [&](const char* name) { return std::find(fields.begin(), fields.end(), name) != fields.end(); };
