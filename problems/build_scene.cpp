@@ -128,23 +128,19 @@ void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
   });
   for (std::size_t q = 0; q < nodes.mass.data().size(); ++q) {
     const double m = nodes.mass.data()[q], ms = sliding.mass.data()[q];
-    double excess = 0;
     for (std::size_t d = 0; d < Dim; ++d) {
       const double p = nodes.momentum[d].data()[q], ps = sliding.momentum[d].data()[q];
       const double v = m > 0 ? p / m : ms > 0 ? ps / ms : 0.0;
       b.velocity[d].data()[q] = v;
       if (m > 0 && ms > 0) {
         b.sliding.jump[d].data()[q] = ps / ms - v;
-        excess += 0.5 * ms * (ps / ms - v) * (ps / ms + v);
+        b.sliding.node_mass.data()[q] = ms;
       }
-    }
-    if (excess != 0) {
-      b.sliding.energy.data()[q] = excess;
     }
   }
 }
 
-/// Normal velocities that boundaries prescribe hold from the start.
+/// Normal velocities that boundaries prescribe hold from the start, for what slides too.
 template <int Dim> void apply_boundary_velocity(Block<Dim>& b) {
   const Grid& g = b.grid;
   for (int k = 0; k < (Dim == 3 ? g.cells[2] + 1 : 1); ++k) {
@@ -152,20 +148,40 @@ template <int Dim> void apply_boundary_velocity(Block<Dim>& b) {
       const int index[3] = {0, j, k};
       for (int axis = 0; axis < Dim; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
-        double* u = b.velocity[a].row(g.node_row(j, k));
+        const int r = g.node_row(j, k);
+        const bool slides = !b.sliding.jump[a].data().empty();
+        const auto hold = [&](int first, int last, double u) {
+          std::fill(b.velocity[a].row(r) + first, b.velocity[a].row(r) + last + 1, u);
+          if (slides) {
+            std::fill(b.sliding.jump[a].row(r) + first, b.sliding.jump[a].row(r) + last + 1, 0.0);
+          }
+        };
         for (int side = 0; side < 2; ++side) {
           if (!b.boundary.fixes_normal_velocity(axis, side)) {
             continue;
           }
           const int last = g.cells[a];
+          const double u = b.boundary.at(axis, side).velocity;
           if (axis == 0) {
-            u[side == 0 ? 0 : last] = b.boundary.at(axis, side).velocity;
+            hold(side == 0 ? 0 : last, side == 0 ? 0 : last, u);
           } else if (index[axis] == (side == 0 ? 0 : last)) {
-            std::fill(u, u + g.cells[0] + 1, b.boundary.at(axis, side).velocity);
+            hold(0, g.cells[0], u);
           }
         }
       }
     }
+  }
+}
+
+/// Kinetic energy of what slides beyond that at its nodes' velocity (remap/mesh.hpp, Sliding).
+template <int Dim> void start_sliding_energy(Block<Dim>& b) {
+  for (std::size_t q = 0; q < b.sliding.energy.data().size(); ++q) {
+    double energy = 0;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      const double d = b.sliding.jump[a].data()[q];
+      energy += 0.5 * b.sliding.node_mass.data()[q] * d * (2 * b.velocity[a].data()[q] + d);
+    }
+    b.sliding.energy.data()[q] = energy;
   }
 }
 
@@ -236,6 +252,7 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
     release_to_vacuum(b);
   }
   apply_boundary_velocity(b);
+  start_sliding_energy(b);
   scene.blocks.push_back(std::move(b));
   prepare(scene);
   return scene;

@@ -156,5 +156,25 @@ TEST(Sliding, StartsWithBothSpeeds) {
   EXPECT_NEAR(t.kinetic_energy / (0.5 * t.mass[1] * 800 * 800), 1, 1e-12);
 }
 
+/// A wall holds both of them from the start: the last half cell of the rod's 80 stands still, and so does the water there.
+TEST(Sliding, AWallHoldsBothFromTheStart) {
+  std::string deck = rod(true);
+  const std::string z_axis = R"(to = "20 mm", size = "0.5 mm" })";
+  const std::size_t at = deck.rfind(z_axis);
+  ASSERT_NE(at, std::string::npos);
+  deck.replace(at, z_axis.size(), R"(to = "20 mm", size = "0.5 mm", upper = "wall" })");
+  Scene<2> scene = build_scene<2>(scene_of(deck), 1);
+  const Block<2>& b = scene.blocks[0];
+  const int r = b.grid.node_row(b.grid.cells[1], 0);
+  for (int i = 0; i <= b.grid.cells[0]; ++i) {
+    EXPECT_EQ(b.velocity[1].row(r)[i], 0);
+    EXPECT_EQ(velocity_of(b, true, 1, r, i), 0);
+  }
+  const Totals t = totals(b);
+  const double moving = t.mass[1] * (1 - 0.5 / 80);
+  EXPECT_NEAR(t.kinetic_energy / (0.5 * moving * 800 * 800), 1, 1e-12); // sums of 1e3 terms: 1e-13
+  EXPECT_NEAR(t.momentum[1] / (moving * 800), 1, 1e-12);
+}
+
 } // namespace
 } // namespace ballast
