@@ -120,7 +120,8 @@ const SectionSpec& numerics() {
        {.name = "sliding",
         .kind = texts,
         .doc = "materials that slide along the others without friction: where they meet both keep their own "
-               "velocity along the interface. Eulerian meshes; default none, all stick together"},
+               "velocity along the interface, and move as one across it. Those listed stick to each other. "
+               "Eulerian meshes without outflow sides; default none, all stick together"},
        {.name = "dt_initial",
         .kind = quantity,
         .doc = "first step; default the stable one",

@@ -78,16 +78,15 @@ std::vector<int> interface_order(Deck& deck, DeckNode* list, const SceneSpec& sc
 /// What slides needs something to slide along, and a remap that brings them together.
 std::vector<int> sliding_materials(Deck& deck, DeckNode* list, const SceneSpec& scene) {
   const std::vector<int> sliding = listed_materials(deck, list, scene);
-  bool outflow = false;
-  for (const auto& axis : scene.boundaries) {
-    outflow = outflow || axis[0].kind == BoundaryKind::outflow || axis[1].kind == BoundaryKind::outflow;
-  }
+  const bool outflow = std::any_of(scene.boundaries.begin(), scene.boundaries.end(), [](const auto& sides) {
+    return sides[0].kind == BoundaryKind::outflow || sides[1].kind == BoundaryKind::outflow;
+  });
   if (!sliding.empty() && sliding.size() == scene.materials.size()) {
     deck.fail_key(*list, "leaves nothing to slide along", "some of the materials, not all");
   } else if (!sliding.empty() && scene.motion.policy == MotionPolicy::lagrangian) {
     deck.fail_key(*list, "needs a remapped mesh: without a remap nothing slides", "motion.policy = \"eulerian\", or no sliding");
   } else if (!sliding.empty() && outflow) {
-    deck.fail_key(*list, "does not work with an outflow side: it holds one velocity a node", "free sides, or no sliding");
+    deck.fail_key(*list, "does not work with an outflow side: it holds one velocity a node", "other sides (free, wall), or no sliding");
   }
   return sliding;
 }

@@ -2,9 +2,11 @@
 // energy are kept.
 #include "ale/phases.hpp"
 #include "problems/build_scene.hpp"
+#include "problems/run_dump.hpp"
 #include "problems/scene_reader.hpp"
 #include "tests/observers.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -174,6 +176,19 @@ TEST(Sliding, AWallHoldsBothFromTheStart) {
   const double moving = t.mass[1] * (1 - 0.5 / 80);
   EXPECT_NEAR(t.kinetic_energy / (0.5 * moving * 800 * 800), 1, 1e-12); // sums of 1e3 terms: 1e-13
   EXPECT_NEAR(t.momentum[1] / (moving * 800), 1, 1e-12);
+}
+
+/// A dump's speed of a cell is that of what fills most of it: the rod's to the cell at 2.5 mm, the water's (at rest) from there on.
+TEST(Sliding, DumpsShowTheSpeedOfWhatFillsACell) {
+  Scene<2> scene = build_scene<2>(scene_of(rod(true)), 1);
+  const Block<2>& b = scene.blocks[0];
+  const io::GridDump dump = dump_block(b, scene.numerics.normal, {});
+  const auto speed = std::find_if(dump.cell_arrays.begin(), dump.cell_arrays.end(), [](const auto& a) { return a.name == "speed"; });
+  ASSERT_NE(speed, dump.cell_arrays.end());
+  for (std::size_t q = 0; q < speed->values.size(); ++q) {
+    const std::size_t i = q % static_cast<std::size_t>(b.grid.cells[0]);
+    EXPECT_NEAR(speed->values[q], i < 5 ? 800 : 0, 1e-4) << "cell " << q; // floats of 800: 6e-5
+  }
 }
 
 } // namespace
