@@ -93,8 +93,8 @@ template <int Dim> void allocate_sliding(Block<Dim>& b) {
   }
   remap::Sliding<Dim>& s = b.sliding;
   std::transform(b.materials.begin(), b.materials.end(), std::back_inserter(s.material), slides);
-  s.node_mass = s.energy = s.loss = RowField::of_nodes(b.grid);
-  for (auto* nodes : {&s.jump, &s.velocity, &s.next_velocity}) {
+  s.node_mass = s.loss = RowField::of_nodes(b.grid);
+  for (auto* nodes : {&s.jump, &s.next_jump, &s.velocity, &s.next_velocity}) {
     nodes->fill(RowField::of_nodes(b.grid));
   }
   s.mass_flux.fill(RowField::of_cells(b.grid));

@@ -103,9 +103,23 @@ template <int Dim> struct Block {
   }
 };
 
-/// Velocity component (m/s) at node i of node row r: the node's, or that of what slides there.
+/// Velocity component (m/s) at node i of node row r: of what slides there, or of the rest.
 template <int Dim> double velocity_of(const Block<Dim>& b, bool sliding, std::size_t d, int r, int i) {
-  return b.velocity[d].row(r)[i] + (sliding && b.any_sliding() ? b.sliding.jump[d].row(r)[i] : 0.0);
+  const double v = b.velocity[d].row(r)[i];
+  if (!b.any_sliding()) {
+    return v;
+  }
+  const double follows = remap::node_follows(b.sliding.node_mass.row(r)[i], b.node_mass.row(r)[i]);
+  return v + ((sliding ? 1 : 0) - follows) * b.sliding.jump[d].row(r)[i];
+}
+
+/// Does what slides take more of cell i of cell row r than the rest?
+template <int Dim> bool mostly_slides(const Block<Dim>& b, int r, int i) {
+  double excess = 0;
+  for (const MaterialSlot& slot : b.materials) {
+    excess += slot.is_void ? 0.0 : (slot.slides ? 1 : -1) * slot.store.row(field::fraction, r)[i];
+  }
+  return excess > 0;
 }
 
 /// Allocates the arrays of a block on the given mesh lines (m) and computes target mesh, volumes and

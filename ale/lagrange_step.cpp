@@ -97,6 +97,35 @@ void accelerate_row(Block<Dim>& b, int r, double dt, int nodes, double* const (&
   }
 }
 
+/// The same where two velocities meet: the force along their jump goes to both as they move the node (remap/mesh.hpp,
+/// Sliding), so the jump changes.
+template <int Dim> void accelerate_apart(Block<Dim>& b, int r, double dt, int nodes, double* const (&force)[Dim]) {
+  remap::Sliding<Dim>& s = b.sliding;
+  const double *m = b.node_mass.row(r), *ms = s.node_mass.row(r);
+  for (std::size_t d = 0; d < Dim; ++d) {
+    std::copy(s.jump[d].row(r), s.jump[d].row(r) + nodes, s.next_jump[d].row(r));
+  }
+  for (int i = 0; i < nodes; ++i) {
+    double square = 0, along = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double jump = s.jump[d].row(r)[i];
+      square += jump * jump;
+      along += jump * force[d][i];
+    }
+    const double rest = m[i] - ms[i];
+    if (!(square > 0)) { // then both have mass
+      continue;
+    }
+    const double a = remap::node_follows(ms[i], m[i]), impulse = dt * along / square; // by m/s of jump
+    const double du = a * impulse / ms[i], dv = (1 - a) * impulse / rest;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double jump = s.jump[d].row(r)[i];
+      b.next_velocity[d].row(r)[i] += jump * (a * du + (1 - a) * dv - impulse / m[i]);
+      s.next_jump[d].row(r)[i] += jump * (du - dv);
+    }
+  }
+}
+
 /// Applies the boundaries to the new velocities of node row (j, k); f is the row's force.
 template <int Dim>
 void bound_row(Block<Dim>& b, int j, int k, double dt, double* const (&force)[Dim], BoundaryEffect& effect) {
@@ -157,6 +186,9 @@ BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
         std::fill(buffer.begin(), buffer.end(), 0.0);
         gather(below, here, q, nodes, force);
         accelerate_row(b, r, dt, nodes, force);
+        if (b.any_sliding()) {
+          accelerate_apart(b, r, dt, nodes, force);
+        }
         bound_row(b, j, k, dt, force, effects[static_cast<std::size_t>(plane)]);
         for (std::size_t d = 0; d < Dim; ++d) {
           const double *x = b.position[d].row(r), *u = b.velocity[d].row(r), *v = b.next_velocity[d].row(r);
@@ -262,6 +294,11 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
     for (std::size_t d = 0; d < Dim; ++d) {
       b.position[d].swap(b.next_position[d]);
       b.velocity[d].swap(b.next_velocity[d]);
+    }
+    if (b.any_sliding()) {
+      for (std::size_t d = 0; d < Dim; ++d) {
+        b.sliding.jump[d].swap(b.sliding.next_jump[d]);
+      }
     }
     b.volume.swap(b.next_volume);
   }

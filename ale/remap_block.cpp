@@ -94,6 +94,7 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   }
   l.remap_kinetic_loss += report.kinetic_loss - report.kinetic_returned;
   l.remap_kinetic_return += report.kinetic_returned;
+  l.sliding_impact += report.impact_loss;
   l.energy_floors += report.energy_floors;
   l.sliver_mass += report.sliver_mass;
   l.sliver_energy += report.sliver_energy;

@@ -239,13 +239,19 @@ template <int Dim> std::string contents(const Block<Dim>& b, const std::array<in
   return out;
 }
 
-/// What the sliding materials of a row of nodes have beyond the nodes' own velocity.
+/// What a row of nodes has beyond one velocity for all they hold.
 template <int Dim> static void add_sliding(const Block<Dim>& b, int r, Totals& t) {
-  const double *mass = b.sliding.node_mass.row(r), *energy = b.sliding.energy.row(r);
-  for (int i = 0; i <= b.grid.cells[0]; ++i) {
-    t.kinetic_energy += energy[i];
-    for (std::size_t d = 0; d < Dim; ++d) {
-      t.momentum[d] += mass[i] * b.sliding.jump[d].row(r)[i];
+  const double *sliding = b.sliding.node_mass.row(r), *mass = b.node_mass.row(r);
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const double* jump = b.sliding.jump[d].row(r);
+    for (int i = 0; i <= b.grid.cells[0]; ++i) {
+      if (jump[i] == 0) {
+        continue;
+      }
+      const double follows = remap::node_follows(sliding[i], mass[i]), rest = mass[i] - sliding[i];
+      const double node = b.velocity[d].row(r)[i], u = (1 - follows) * jump[i], v = -follows * jump[i];
+      t.kinetic_energy += sliding[i] * u * (node + 0.5 * u) + rest * v * (node + 0.5 * v);
+      t.momentum[d] += sliding[i] * u + rest * v;
     }
   }
 }

@@ -130,11 +130,10 @@ void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
     const double m = nodes.mass.data()[q], ms = sliding.mass.data()[q];
     for (std::size_t d = 0; d < Dim; ++d) {
       const double p = nodes.momentum[d].data()[q], ps = sliding.momentum[d].data()[q];
-      const double v = m > 0 ? p / m : ms > 0 ? ps / ms : 0.0;
-      b.velocity[d].data()[q] = v;
+      const double v = m > 0 ? p / m : 0.0, u = ms > 0 ? ps / ms : v;
+      b.velocity[d].data()[q] = m > 0 ? v + remap::node_follows(ms, m + ms) * (u - v) : u;
       if (m > 0 && ms > 0) {
-        b.sliding.jump[d].data()[q] = ps / ms - v;
-        b.sliding.node_mass.data()[q] = ms;
+        b.sliding.jump[d].data()[q] = u - v;
       }
     }
   }
@@ -170,18 +169,6 @@ template <int Dim> void apply_boundary_velocity(Block<Dim>& b) {
         }
       }
     }
-  }
-}
-
-/// Kinetic energy of what slides beyond that at its nodes' velocity (remap/mesh.hpp, Sliding).
-template <int Dim> void start_sliding_energy(Block<Dim>& b) {
-  for (std::size_t q = 0; q < b.sliding.energy.data().size(); ++q) {
-    double energy = 0;
-    for (std::size_t a = 0; a < Dim; ++a) {
-      const double d = b.sliding.jump[a].data()[q];
-      energy += 0.5 * b.sliding.node_mass.data()[q] * d * (2 * b.velocity[a].data()[q] + d);
-    }
-    b.sliding.energy.data()[q] = energy;
   }
 }
 
@@ -252,7 +239,6 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
     release_to_vacuum(b);
   }
   apply_boundary_velocity(b);
-  start_sliding_energy(b);
   scene.blocks.push_back(std::move(b));
   prepare(scene);
   return scene;

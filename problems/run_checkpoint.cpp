@@ -20,7 +20,6 @@ template <int Dim, class BlockType, class Visit> void visit_fields(BlockType& b,
   visit("node_mass", b.node_mass.data());
   if (b.any_sliding()) {
     visit("sliding_node_mass", b.sliding.node_mass.data());
-    visit("sliding_energy", b.sliding.energy.data());
     for (std::size_t d = 0; d < Dim; ++d) {
       visit(fmt::format("sliding_jump_{}", d), b.sliding.jump[d].data());
     }
@@ -32,7 +31,7 @@ std::vector<double> pack(const Ledger& l) {
   std::vector<double> v = {l.boundary_work, l.ambient_work, l.void_work, l.remap_kinetic_loss, l.remap_kinetic_return,
                            l.energy_out, l.momentum_out[0], l.momentum_out[1], l.momentum_out[2], l.sliver_energy,
                            l.sliver_mass, static_cast<double>(l.slivers), static_cast<double>(l.spalled_cells),
-                           static_cast<double>(l.energy_floors), static_cast<double>(l.retries), static_cast<double>(l.closed_voids)};
+                           static_cast<double>(l.energy_floors), static_cast<double>(l.retries), static_cast<double>(l.closed_voids), l.sliding_impact};
   v.insert(v.end(), l.mass_out.begin(), l.mass_out.end());
   return v;
 }
@@ -52,7 +51,8 @@ void unpack(const std::vector<double>& v, Ledger& l) {
   l.energy_floors = static_cast<long>(v.at(13));
   l.retries = static_cast<long>(v.at(14));
   l.closed_voids = static_cast<long>(v.at(15));
-  l.mass_out.assign(v.begin() + 16, v.end());
+  l.sliding_impact = v.at(16);
+  l.mass_out.assign(v.begin() + 17, v.end());
 }
 
 } // namespace

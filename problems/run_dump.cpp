@@ -38,15 +38,12 @@ public:
     });
   }
   double speed(int j, int k, int i) const {
-    const int r_cell = b_.grid.cell_row(j, k);
-    double sum = 0, sliding = 0;
-    for (const MaterialSlot& slot : b_.materials) {
-      sliding += slot.slides ? slot.store.row(field::fraction, r_cell)[i] : 0.0;
-    }
+    const bool sliding = mostly_slides(b_, b_.grid.cell_row(j, k), i);
+    double sum = 0;
     for (std::size_t d = 0; d < Dim; ++d) {
       double u = 0;
       for (int corner = 0; corner < (1 << Dim); ++corner) {
-        u += velocity_of(b_, sliding > 0.5, d, b_.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)), i + (corner & 1));
+        u += velocity_of(b_, sliding, d, b_.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)), i + (corner & 1));
       }
       sum += u * u / (1 << (2 * Dim));
     }

@@ -199,10 +199,8 @@ template <int Dim>
 std::array<double, 3>
 velocity_at(const Block<Dim>& b, const std::array<int, 3>& cell, const std::array<double, 3>& at) {
   std::array<double, 3> u{};
-  double part[3] = {}, sliding = 0;
-  for (const MaterialSlot& slot : b.materials) {
-    sliding += slot.slides ? slot.store.row(field::fraction, b.grid.cell_row(cell[1], cell[2]))[cell[0]] : 0.0;
-  }
+  double part[3] = {};
+  const bool sliding = mostly_slides(b, b.grid.cell_row(cell[1], cell[2]), cell[0]);
   for (int d = 0; d < Dim; ++d) {
     const auto x = cell_range(b, d, cell[0], cell[1], cell[2]);
     part[d] = std::clamp((at[static_cast<std::size_t>(d)] - x[0]) / (x[1] - x[0]), 0.0, 1.0);
@@ -214,7 +212,7 @@ velocity_at(const Block<Dim>& b, const std::array<int, 3>& cell, const std::arra
     }
     const int r = b.grid.node_row(cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2 & 1));
     for (std::size_t d = 0; d < Dim; ++d) {
-      u[d] += w * velocity_of(b, sliding > 0.5, d, r, cell[0] + (corner & 1));
+      u[d] += w * velocity_of(b, sliding, d, r, cell[0] + (corner & 1));
     }
   }
   return u;

@@ -57,6 +57,7 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
   j["energy_J"] = {{"start", memory_.energy_start}, {"end_total", a.total}, {"end_kinetic", a.kinetic}, {"end_internal", a.internal},
                    {"boundary_work", l.boundary_work}, {"ambient_work", l.ambient_work}, {"void_work", l.void_work},
                    {"remap_kinetic_loss", l.remap_kinetic_loss}, {"remap_kinetic_returned_to_heat", l.remap_kinetic_return},
+                   {"sliding_impact", l.sliding_impact},
                    {"left_block", l.energy_out}, {"slivers", l.sliver_energy}, {"unaccounted", a.unaccounted}};
   j["conservation_errors"] = {{"mass_relative", mass_error},
                               {"energy_relative", a.unaccounted / std::max(std::abs(memory_.energy_start), 1e-300)}};

@@ -200,7 +200,8 @@ Cost estimated_cost(const SceneSpec& scene) {
   // its materials what one fills a cell with, conserved twice, derived once.
   const int block = 5 * dim + 3 + 7 + 5 * dim + deviator + (strength ? 2 : 0);
   const int material = 2 * (3 + deviator + (strength ? 1 : 0)) + (strength ? 3 : 2);
-  c.bytes_per_cell = 8.0 * (block + material);
+  const int sliding = scene.sliding.empty() ? 0 : 5 * dim + 4; // nodes 4 vectors and 2 scalars, cells a vector and 2 scalars
+  c.bytes_per_cell = 8.0 * (block + material + sliding);
   // Measured microseconds a cell-step on one core (docs/performance.md); cells with several materials cost more.
   double microseconds = dim == 2 ? (strength ? 0.45 : 0.15) : (strength ? 0.7 : 0.35);
   if (scene.motion.policy == MotionPolicy::lagrangian) {

@@ -26,12 +26,12 @@ void sweep_cells(Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, in
 template <int Dim>
 void sweep_nodes(Mesh<Dim>& mesh, const Settings& settings, ThreadPool& pool, int axis, bool first, Report& report);
 
-/// Before the sweeps: the node's mass and velocity are those of what does not slide, sliding.velocity that of what does;
-/// sliding.loss starts with the difference between its kinetic energy and the one kept, scratch.node_loss with zero.
-template <int Dim> void part_sliding(Mesh<Dim>& mesh, ThreadPool& pool, Report& report);
+/// Before the sweeps: the node's mass and velocity become those of what does not slide, sliding.velocity that of what
+/// does; the losses by node start at zero.
+template <int Dim> void part_sliding(Mesh<Dim>& mesh, ThreadPool& pool);
 
 /// After them: across the interface both move as one, along it each keeps its velocity. The energy of that impact is
-/// loss; it and that of part_sliding become heat of what slides.
+/// loss and becomes heat of what slides.
 template <int Dim> void join_sliding(Mesh<Dim>& mesh, ThreadPool& pool, Report& report);
 
 /// Gives every node's loss to its cells by corner mass, every cell's to its materials by mass.

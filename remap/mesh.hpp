@@ -22,20 +22,27 @@ struct Scratch {
   RowField cell_mass, node_loss, next_node_mass;
 };
 
-/// Materials that slide along the rest. At the nodes that both own a part of they have a velocity of their own;
-/// between remaps the node's acceleration is theirs too, so the jump stays as it is, and so do the momentum
-/// (node_mass x jump) and the kinetic energy by which they differ from one velocity for the whole node.
+/// Materials that slide along the rest. At a node that both own a part of they have velocities of their own, v_r and
+/// v_s = v_r + jump, and the node moves with v = v_r + a jump, a = node_follows(). Of a force on the node the part along the
+/// jump goes to both as they move it, a and 1 - a of it, the part across by mass: its work on the node is what they gain.
 template <int Dim> struct Sliding {
-  std::vector<char> material;     ///< by material: does it slide? Empty: none does
-  RowField node_mass;             ///< kg of the sliding materials by node
-  std::array<RowField, Dim> jump; ///< m/s, their velocity less the node's, which is that of the rest
-  RowField energy;                ///< J by node, kinetic energy beyond 1/2 M v^2 when the jump was made
+  std::vector<char> material;                ///< by material: does it slide? Empty: none does
+  RowField node_mass;                        ///< kg of the sliding materials by node
+  std::array<RowField, Dim> jump, next_jump; ///< m/s, their velocity less that of the rest
 
   std::array<RowField, Dim> velocity, next_velocity; ///< scratch
   std::array<RowField, Dim> mass_flux;               ///< scratch, faces
   RowField cell_mass;                                ///< scratch
   RowField loss;                                     ///< scratch, J by node: what is to come back as heat
 };
+
+/// How far the velocity of a node (mass in kg) lies from that of the rest (0) to that of what slides (1). 0 where the rest
+/// has half the mass or more, so that its surface keeps its shape; from there to 1 where it has none: a trace of it is not
+/// to take the whole force (its acceleration along the jump is at most twice that of the node).
+inline double node_follows(double sliding_mass, double mass) {
+  const double rest = mass > 0 ? 1 - sliding_mass / mass : 1.0, follows = 1 - 2 * rest;
+  return follows > 0 ? follows : 0.0;
+}
 
 /// What stands beyond a side that feeds the block: one material, its history zero.
 struct Inflow {
@@ -104,6 +111,7 @@ struct Report {
   double internal_out = 0, kinetic_out = 0; ///< J
   std::array<double, 3> momentum_out = {0, 0, 0};
   double kinetic_loss = 0;     ///< J, lost by averaging velocities (before any return)
+  double impact_loss = 0;      ///< J, of that, where what slides meets the rest (never negative)
   double kinetic_returned = 0; ///< J, of that, put into internal energy
   long energy_floors = 0;      ///< cells where a negative return was cut
   double sliver_mass = 0, sliver_energy = 0;

@@ -225,7 +225,7 @@ void sweep_all(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long or
     *m.scratch = {RowField::of_cells(m.grid), RowField::of_nodes(m.grid), RowField::of_nodes(m.grid)};
   }
   if (m.sliding != nullptr) {
-    part_sliding(m, pool, report);
+    part_sliding(m, pool);
   }
   for (int q = 0; q < Dim; ++q) {
     const int axis = sweep_axis(Dim, q, order);

@@ -161,8 +161,9 @@ private:
       const double middle = select(positive, w1, w2) - 0.5 * std::abs(give);
       const double least = middle < left ? middle : left, distance = least > 0 ? least : 0.0;
       const RiseFactors k = rise_factors(behind, ahead, behind > ahead ? behind : ahead, distance);
-      central[i] = k.central;
-      edge[i] = k.edge;
+      const bool hollow = behind < 1e-6 * ahead; // next to nothing behind the donor: the velocity there means nothing
+      central[i] = hollow ? 0.0 : k.central;
+      edge[i] = hollow ? 0.0 : k.edge;
     }
   }
 

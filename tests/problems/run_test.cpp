@@ -131,8 +131,13 @@ Clock clock_to(double end_time) {
 template <int Dim> std::vector<double> state_of(const Scene<Dim>& scene) {
   const Block<Dim>& b = scene.blocks[0];
   std::vector<double> all;
-  for (const RowField& u : b.velocity) {
-    all.insert(all.end(), u.data().begin(), u.data().end());
+  const auto add_field = [&](const RowField& f) { all.insert(all.end(), f.data().begin(), f.data().end()); };
+  add_field(b.node_mass);
+  add_field(b.sliding.node_mass);
+  for (std::size_t d = 0; d < Dim; ++d) {
+    add_field(b.position[d]);
+    add_field(b.velocity[d]);
+    add_field(b.sliding.jump[d]);
   }
   for (int k = 0; k < b.grid.cells[2]; ++k) {
     for (int j = 0; j < b.grid.cells[1]; ++j) {
