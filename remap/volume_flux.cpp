@@ -12,33 +12,68 @@ namespace {
 
 constexpr double flush_fraction = 1e-6; ///< a donor left with less than this gives it all
 
-/// Volumes that a mixed donor gives through one face, into the materials' flux[0] at `face`.
+/// Volumes of the materials in the slab of a mixed donor that `volume` of the cell's `of` takes at its high or low end.
 template <int Dim>
-void mixed_donor(const Mesh<Dim>& m, const Settings& s, int axis, int r, int i, double t, bool both_faces_give, FaceRow& out, int face) {
+void slabs(const Reconstruction<Dim>& cell, int axis, bool high, double volume, double of, double* out) {
+  const double part = std::min(1.0, volume / of);
+  slab_volumes<Dim>(cell.planes, cell.count - 1, axis, high ? 1 - part : 0.0, high ? 1.0 : part, out);
+  for (int q = 0; q < cell.count; ++q) {
+    out[q] *= of;
+  }
+}
+
+/// Lowers what a face may take of each material (`most`, what the cell holds) so that the opposite face, which does the
+/// same, can take its own: its slab, and of what neither slab holds the share that it needs to fill its total.
+template <int Dim>
+void leave_for_opposite(const Reconstruction<Dim>& cell, int axis, double t, double opposite, double volume, const double* slab, double* most) {
+  double other[most_materials], need = std::abs(t), other_need = opposite;
+  slabs(cell, axis, !(t > 0), opposite, volume, other);
+  double own[most_materials];
+  for (int q = 0; q < cell.count; ++q) {
+    own[q] = std::min(slab[q], most[q] - std::min(other[q], most[q]));
+    other[q] = std::min(other[q], most[q] - std::min(slab[q], most[q]));
+    need -= own[q];
+    other_need -= other[q];
+  }
+  const double both = std::max(need, 0.0) + std::max(other_need, 0.0), share = both > 0 ? std::max(need, 0.0) / both : 0.0;
+  for (int q = 0; q < cell.count; ++q) {
+    most[q] = own[q] + share * std::max(most[q] - own[q] - other[q], 0.0);
+  }
+}
+
+/// Volumes that a mixed donor gives through one face, into the materials' flux[0] at `face`. `opposite`: what leaves it
+/// through the opposite face (m3, not negative); the two together take no more of a material than there is.
+template <int Dim>
+void mixed_donor(const Mesh<Dim>& m, const Settings& s, int axis, int r, int i, double t, double opposite, FaceRow& out, int face) {
   const Reconstruction<Dim> cell = reconstruct_cell<Dim>(m.grid, m.materials, s.normal, r, i);
   const int count = cell.count;
   const int* present = cell.present;
-  const double volume = m.volume.row(r)[i], part = std::min(1.0, std::abs(t) / volume);
-  double given[most_materials], held[most_materials], sum = 0;
-  slab_volumes<Dim>(cell.planes, count - 1, axis, t > 0 ? 1 - part : 0.0, t > 0 ? 1.0 : part, given);
+  const double volume = m.volume.row(r)[i];
+  double given[most_materials], most[most_materials], sum = 0;
+  slabs(cell, axis, t > 0, std::abs(t), volume, given);
+  for (int q = 0; q < count; ++q) {
+    most[q] = m.materials[static_cast<std::size_t>(present[q])]->row(0, r)[i] * volume;
+  }
+  if (opposite > 0) {
+    leave_for_opposite(cell, axis, t, opposite, volume, given, most);
+  }
   int largest = 0;
   for (int q = 0; q < count; ++q) {
-    held[q] = m.materials[static_cast<std::size_t>(present[q])]->row(0, r)[i] * volume;
-    given[q] = std::min(given[q] * volume, held[q]);
-    if (!both_faces_give && held[q] - given[q] < flush_fraction * volume && given[q] > 0) {
-      given[q] = held[q]; // no sliver stays behind
+    given[q] = std::min(given[q], most[q]);
+    if (!(opposite > 0) && most[q] - given[q] < flush_fraction * volume && given[q] > 0) {
+      given[q] = most[q]; // no sliver stays behind
     }
     sum += given[q];
-    largest = held[q] - given[q] > held[largest] - given[largest] ? q : largest;
+    largest = most[q] - given[q] > most[largest] - given[largest] ? q : largest;
   }
   // The rest of the face's total comes from, or goes back to, whoever has most left.
   double rest = std::abs(t) - sum;
   for (int pass = 0; pass < count && rest != 0; ++pass) {
-    const double take = std::clamp(rest, -given[largest], held[largest] - given[largest]);
+    const double take = std::clamp(rest, -given[largest], most[largest] - given[largest]);
     given[largest] += take;
     rest -= take;
     for (int q = 0; q < count; ++q) {
-      const auto room = [&](int c) { return rest > 0 ? held[c] - given[c] : given[c]; };
+      const auto room = [&](int c) { return rest > 0 ? most[c] - given[c] : given[c]; };
       largest = room(q) > room(largest) ? q : largest;
     }
   }
@@ -86,8 +121,8 @@ void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& 
     }
     const int owner = t > 0 ? below[i] : above[i];
     if (owner < 0) {
-      const bool gives_twice = t > 0 ? last_swept[i] > 0 : next_swept[i] < 0;
-      mixed_donor(m, s, axis, t > 0 ? line.row[1] : line.row[2], i + (t > 0 ? line.shift[1] : line.shift[2]), t, gives_twice, out, i);
+      const double opposite = std::max(0.0, t > 0 ? last_swept[i] : -next_swept[i]);
+      mixed_donor(m, s, axis, t > 0 ? line.row[1] : line.row[2], i + (t > 0 ? line.shift[1] : line.shift[2]), t, opposite, out, i);
       current = -1;
       continue;
     }
