@@ -94,12 +94,12 @@ Material gilding_metal() {
   return {.name = "gilding_metal",
           .eos = gruneisen(8800, 3850, 1.46, 2.0),
           .strength = JohnsonCook{.shear_modulus = 44e9,
-                                  .A = 90e6,
-                                  .B = 292e6,
-                                  .n = 0.31,
-                                  .C = 0.025,
-                                  .m = 1.09,
-                                  .reference_rate = 1,
+                                  .A = 206e6,
+                                  .B = 505e6,
+                                  .n = 0.42,
+                                  .C = 0.01,
+                                  .m = 1.68,
+                                  .reference_rate = 5e-4,
                                   .reference_temperature = 293,
                                   .melt_temperature = 1318,
                                   .specific_heat = 376},
@@ -109,8 +109,9 @@ Material gilding_metal() {
           .melt_temperature = 1318,
           .source =
               "C22000, Cu 90 Zn 10: density, melting, heat capacity [K1]; G, c0, s, gamma0 between "
-              "copper and brass [K3]; no strength data found: copper OFHC Johnson-Cook (soft end) "
-              "[K3], the hard end is brass 206 MPa, 505 MPa, 0.42; spall [K3]",
+              "copper and brass [K3]; strength: none found for it, that of a brass bullet jacket "
+              "(Flores-Johnson 2011 [R-2nd]) [K3], since a jacket is drawn and so hard; the soft end "
+              "is annealed copper, 90 MPa, 292 MPa, 0.31, 0.025, 1.09, 1 /s; spall [K3]",
           .confidence = "K1, K3"};
 }
 

@@ -56,6 +56,7 @@ template <int Dim> std::vector<std::string> RunSession<Dim>::columns() const {
   if (spec_.results.target >= 0) {
     c.emplace_back("cavity_radius [m]");
     c.emplace_back("target_energy_gain [J]");
+    c.emplace_back("target_kinetic_energy [J]");
   }
   for (const Gauge& g : spec_.gauges) {
     for (const std::string& q : g.record) {
@@ -107,6 +108,7 @@ template <int Dim> std::vector<double> RunSession<Dim>::values() {
     cavity_peak_ = std::max(cavity_peak_, cavity);
     v.push_back(cavity);
     v.push_back(t.internal_energy[slot] - memory_.results[slot]);
+    v.push_back(kinetic_energy(b, static_cast<int>(slot)));
   }
   for (std::size_t q = 0; q < spec_.gauges.size(); ++q) {
     const Gauge& g = spec_.gauges[q];

@@ -90,6 +90,27 @@ double reach(const Block<Dim>& b,
 
 } // namespace
 
+template <int Dim> double kinetic_energy(const Block<Dim>& b, int slot) {
+  const MaterialSlot& material = b.materials[static_cast<std::size_t>(slot)];
+  double sum = 0;
+  for_each_cell(b, [&](int i, int j, int k) {
+    const int r = b.grid.cell_row(j, k), index[3] = {i, j, k};
+    const double mass = material.store.has_row(r) ? material.store.row(field::mass, r)[i] : 0.0;
+    for (int corner = 0; mass > 0 && corner < (1 << Dim); ++corner) {
+      const int up[3] = {corner & 1, corner >> 1 & 1, corner >> 2 & 1}, node = b.grid.node_row(j + up[1], k + up[2]);
+      double share = mass, square = 0;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const double low = b.low_share[d][static_cast<std::size_t>(index[d] + b.grid.ghost[d])];
+        const double u = velocity_of(b, material.slides, d, node, i + up[0]);
+        share *= up[d] != 0 ? 1 - low : low;
+        square += u * u;
+      }
+      sum += 0.5 * share * square;
+    }
+  });
+  return sum;
+}
+
 template <int Dim>
 BodyMeasure
 measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, double direction) {
@@ -218,6 +239,8 @@ velocity_at(const Block<Dim>& b, const std::array<int, 3>& cell, const std::arra
   return u;
 }
 
+template double kinetic_energy<2>(const Block<2>&, int);
+template double kinetic_energy<3>(const Block<3>&, int);
 template BodyMeasure measure_body<2>(const Block<2>&, const std::vector<int>&, int, double);
 template BodyMeasure measure_body<3>(const Block<3>&, const std::vector<int>&, int, double);
 template double cavity_radius<2>(const Block<2>&, int, int, double, double, double);

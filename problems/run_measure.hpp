@@ -16,6 +16,9 @@ struct BodyMeasure {
 template <int Dim>
 BodyMeasure measure_body(const Block<Dim>& block, const std::vector<int>& slots, int axis, double direction);
 
+/// Kinetic energy of a material, J: of its shares of the nodes. Over all materials it is the block's.
+template <int Dim> double kinetic_energy(const Block<Dim>& block, int slot);
+
 /// Largest radius (m) around the shot line, inside the target, that the target has been cleared from.
 template <int Dim>
 double cavity_radius(const Block<Dim>& block, int target_slot, int axis, double from, double direction, double until);

@@ -3,6 +3,7 @@
 #include "ale/phases.hpp"
 #include "problems/build_scene.hpp"
 #include "problems/run_dump.hpp"
+#include "problems/run_measure.hpp"
 #include "problems/scene_reader.hpp"
 #include "tests/observers.hpp"
 
@@ -94,6 +95,12 @@ template <int Dim> void expect_conserved(const std::string& text) {
   const double out = end.kinetic_energy + end.internal() + l.remap_kinetic_loss + l.energy_out + l.sliver_energy;
   EXPECT_NEAR(out / in, 1, 1e-12) << spec.title;
   EXPECT_NEAR((end.momentum[axis] + l.momentum_out[axis]) / start.momentum[axis], 1, 1e-12) << spec.title;
+  double shared = 0;
+  for (std::size_t m = 0; m < scene.blocks[0].materials.size(); ++m) {
+    shared += scene.blocks[0].materials[m].is_void ? 0.0 : kinetic_energy(scene.blocks[0], static_cast<int>(m));
+  }
+  EXPECT_NEAR(shared / end.kinetic_energy, 1, 1e-12) << spec.title;
+  EXPECT_GT(l.sliding_impact, 0) << spec.title;
   bool jumps = false;
   for (const double u : scene.blocks[0].sliding.jump[axis].data()) {
     jumps = jumps || std::abs(u) > 10;
