@@ -103,6 +103,17 @@ template <int Dim> struct Block {
   }
 };
 
+/// Share of the mass of cell (i, j, k) that goes to its corner; bit a of `corner`: the upper node along axis a.
+template <int Dim> double corner_share(const Block<Dim>& b, int corner, int i, int j, int k) {
+  const int index[3] = {i, j, k};
+  double share = 1;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    const double low = b.low_share[a][static_cast<std::size_t>(index[a] + b.grid.ghost[a])];
+    share *= (corner >> a & 1) != 0 ? 1 - low : low;
+  }
+  return share;
+}
+
 /// Velocity component (m/s) at node i of node row r: of what slides there, or of the rest.
 template <int Dim> double velocity_of(const Block<Dim>& b, bool sliding, std::size_t d, int r, int i) {
   const double v = b.velocity[d].row(r)[i];

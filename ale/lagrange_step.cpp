@@ -113,7 +113,7 @@ template <int Dim> void accelerate_apart(Block<Dim>& b, int r, double dt, int no
       along += jump * force[d][i];
     }
     const double rest = m[i] - ms[i];
-    if (!(square > 0) || !(rest > 0) || !(ms[i] > 0)) { // the remap drops slivers after it made the jumps
+    if (!(square > 0)) { // where it is, both have mass (ale/remap_block)
       continue;
     }
     const double a = remap::node_follows(ms[i], m[i]), impulse = dt * along / square; // by m/s of jump

@@ -67,6 +67,16 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
   return m;
 }
 
+/// No jump at nodes that hold only one of the two, or nothing: slivers of them were dropped since the jump was made.
+template <int Dim> void settle_jumps(Block<Dim>& b) {
+  const auto &mass = b.node_mass.data(), &sliding = b.sliding.node_mass.data();
+  for (auto& jump : b.sliding.jump) {
+    for (std::size_t i = 0; i < jump.data().size(); ++i) {
+      jump.data()[i] = sliding[i] > 0 && sliding[i] < mass[i] ? jump.data()[i] : 0.0;
+    }
+  }
+}
+
 /// Nodes without mass rest: nothing there moves.
 template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
   const auto& mass = b.node_mass.data();
@@ -107,6 +117,9 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   }
   b.volume.data() = b.target_volume.data(); // exactly, without the sweeps' round-off
   compute_node_mass(b, *scene.pool);
+  if (b.any_sliding()) {
+    settle_jumps(b);
+  }
   if (b.void_index() >= 0) {
     rest_massless_nodes(b);
   }

@@ -61,7 +61,7 @@ struct Ledger {
   double void_work = 0;           ///< J gained by cells with void beyond their forces' work: void holds no energy
   double remap_kinetic_loss = 0;  ///< J of kinetic energy lost in remaps and not returned
   double remap_kinetic_return = 0; ///< J lost and returned to internal energy
-  double sliding_impact = 0;       ///< J, part of those two: lost where what slides meets the rest, never negative
+  double sliding_impact = 0;       ///< J, part of those two: lost where what slides meets the rest or sticks to it
   double energy_out = 0;          ///< J, total energy that crossed open boundaries
   std::vector<double> mass_out;   ///< kg by material
   std::array<double, 3> momentum_out = {0, 0, 0}; ///< kg m/s through open boundaries

@@ -54,16 +54,9 @@ template <int Dim> struct NodeMomentum {
 
 template <int Dim>
 void add_momentum(const Block<Dim>& b, int i, int j, int k, double mass, const Point& velocity, NodeMomentum<Dim>& sum) {
-  const Grid& g = b.grid;
-  const int index[3] = {i, j, k};
   for (int corner = 0; corner < (1 << Dim); ++corner) {
-    double share = mass;
-    for (int d = 0; d < Dim; ++d) {
-      const auto a = static_cast<std::size_t>(d);
-      const double low = b.low_share[a][static_cast<std::size_t>(index[d] + g.ghost[a])];
-      share *= corner >> d & 1 ? 1 - low : low;
-    }
-    const int r = g.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)), n = i + (corner & 1);
+    const double share = mass * corner_share(b, corner, i, j, k);
+    const int r = b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)), n = i + (corner & 1);
     sum.mass.row(r)[n] += share;
     for (std::size_t d = 0; d < Dim; ++d) {
       sum.momentum[d].row(r)[n] += share * velocity[d];
@@ -73,6 +66,7 @@ void add_momentum(const Block<Dim>& b, int i, int j, int k, double mass, const P
 
 template <int Dim>
 void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
+  constexpr double trace = 1e-9; // of a node's mass: the rounding of the bodies' shares does not slide
   NodeMomentum<Dim> nodes, sliding;
   nodes.mass = sliding.mass = RowField::of_nodes(b.grid);
   nodes.momentum.fill(nodes.mass);
@@ -132,7 +126,7 @@ void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
       const double p = nodes.momentum[d].data()[q], ps = sliding.momentum[d].data()[q];
       const double v = m > 0 ? p / m : 0.0, u = ms > 0 ? ps / ms : v;
       b.velocity[d].data()[q] = m > 0 ? v + remap::node_follows(ms, m + ms) * (u - v) : u;
-      if (m > 0 && ms > 0) {
+      if (std::min(m, ms) > trace * (m + ms)) {
         b.sliding.jump[d].data()[q] = u - v;
       }
     }

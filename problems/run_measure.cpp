@@ -94,18 +94,16 @@ template <int Dim> double kinetic_energy(const Block<Dim>& b, int slot) {
   const MaterialSlot& material = b.materials[static_cast<std::size_t>(slot)];
   double sum = 0;
   for_each_cell(b, [&](int i, int j, int k) {
-    const int r = b.grid.cell_row(j, k), index[3] = {i, j, k};
+    const int r = b.grid.cell_row(j, k);
     const double mass = material.store.has_row(r) ? material.store.row(field::mass, r)[i] : 0.0;
     for (int corner = 0; mass > 0 && corner < (1 << Dim); ++corner) {
-      const int up[3] = {corner & 1, corner >> 1 & 1, corner >> 2 & 1}, node = b.grid.node_row(j + up[1], k + up[2]);
-      double share = mass, square = 0;
+      const int node = b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1));
+      double square = 0;
       for (std::size_t d = 0; d < Dim; ++d) {
-        const double low = b.low_share[d][static_cast<std::size_t>(index[d] + b.grid.ghost[d])];
-        const double u = velocity_of(b, material.slides, d, node, i + up[0]);
-        share *= up[d] != 0 ? 1 - low : low;
+        const double u = velocity_of(b, material.slides, d, node, i + (corner & 1));
         square += u * u;
       }
-      sum += 0.5 * share * square;
+      sum += 0.5 * mass * corner_share(b, corner, i, j, k) * square;
     }
   });
   return sum;

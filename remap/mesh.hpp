@@ -38,7 +38,7 @@ template <int Dim> struct Sliding {
 
 /// How far the velocity of a node (mass in kg) lies from that of the rest (0) to that of what slides (1). 0 where the rest
 /// has half the mass or more, so that its surface keeps its shape; from there to 1 where it has none: a trace of it is not
-/// to take the whole force (its acceleration along the jump is at most twice that of the node).
+/// to take the whole force (along the jump it gains at most twice F / M, and so does the node).
 inline double node_follows(double sliding_mass, double mass) {
   const double rest = mass > 0 ? 1 - sliding_mass / mass : 1.0, follows = 1 - 2 * rest;
   return follows > 0 ? follows : 0.0;
@@ -111,7 +111,7 @@ struct Report {
   double internal_out = 0, kinetic_out = 0; ///< J
   std::array<double, 3> momentum_out = {0, 0, 0};
   double kinetic_loss = 0;     ///< J, lost by averaging velocities (before any return)
-  double impact_loss = 0;      ///< J, of that, where what slides meets the rest (never negative)
+  double impact_loss = 0;      ///< J, of that, where what slides meets the rest or sticks to it
   double kinetic_returned = 0; ///< J, of that, put into internal energy
   long energy_floors = 0;      ///< cells where a negative return was cut
   double sliver_mass = 0, sliver_energy = 0;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,8 @@ namespace {
 constexpr double largest_fall = 0.5; ///< of what a material has above its least energy that a return may take
 constexpr double sliver_share = 1e-4; ///< of a cell, by mass: what holds less gets no heat back, it would boil
 constexpr double least_share = 1e-3; ///< of the node's mass: a trace of either moves with the other
-constexpr double no_rise = 1e-5; ///< of what a step of one fraction makes (32 in 2D): round-off has no normal
+constexpr double no_rise = 1e-5; ///< a step of fractions makes 32 in 2D, 256 in 3D: round-off has no normal
+constexpr double no_jump = 1e-10; ///< of the velocities: the round-off of a jump has a direction, but no meaning
 
 /// Fraction of a cell that slides less the fraction of the rest; mirrored beyond the mesh.
 template <int Dim> double contrast(const Mesh<Dim>& m, std::array<int, 3> cell) {
@@ -40,10 +42,10 @@ template <int Dim> double contrast(const Mesh<Dim>& m, std::array<int, 3> cell) 
   return sum;
 }
 
-/// Unit normal of the interface at a node; along a wall on a wall. Zero without one. It is the gradient of the fractions of
-/// the four cells around the node in each direction, smoothed by a quadratic B-spline: within 3 degrees for a plane
-/// wherever it passes. (Two cells in each direction: 5 degrees at the node, 30 a cell off, and all who slide would collide.)
-template <int Dim> Eigen::Matrix<double, Dim, 1> normal_at(const Mesh<Dim>& m, int i, int j, int k) {
+/// Normal of the interface at a node: a unit vector, zero on walls that the interface runs along; nothing without one.
+/// It is the gradient of the fractions of the four cells around the node in each direction, smoothed by a hat two cells
+/// wide on each side: within 3 degrees for a plane wherever it passes. (Two cells in each direction: 5 degrees at the node, 30 a cell off, and all who slide would collide.)
+template <int Dim> std::optional<Eigen::Matrix<double, Dim, 1>> normal_at(const Mesh<Dim>& m, int i, int j, int k) {
   using Vector = Eigen::Matrix<double, Dim, 1>;
   constexpr double value[4] = {1, 3, 3, 1}, slope[4] = {-1, -1, 1, 1};
   const int node[3] = {i, j, k};
@@ -60,7 +62,7 @@ template <int Dim> Eigen::Matrix<double, Dim, 1> normal_at(const Mesh<Dim>& m, i
     }
   }
   if (rise.squaredNorm() < no_rise * no_rise) {
-    return Vector::Zero();
+    return std::nullopt;
   }
   Eigen::Matrix<double, Dim, Dim> along = Eigen::Matrix<double, Dim, Dim>::Identity();
   for (int a = 0; a < Dim; ++a) {
@@ -80,7 +82,7 @@ template <int Dim> Eigen::Matrix<double, Dim, 1> normal_at(const Mesh<Dim>& m, i
     n[a] = wall ? 0.0 : n[a];
   }
   const double size = n.norm();
-  return size > 0 ? Vector(n / size) : Vector::Zero();
+  return size > 0 ? n / size : n;
 }
 
 template <int Dim> class Join {
@@ -124,24 +126,24 @@ private:
       v[d] = m_.velocity[static_cast<std::size_t>(d)].row(r)[i];
       u[d] = s_.velocity[static_cast<std::size_t>(d)].row(r)[i];
     }
-    const double before = 0.5 * (rest * v.squaredNorm() + sliding * u.squaredNorm());
     const Vector apart = u - v;
-    Vector n = Vector::Zero();
+    std::optional<Vector> n;
     if (std::min(rest, sliding) > least_share * mass) {
       n = normal_at(m_, i, j, k);
     }
     // As one, in all directions if there is no interface to slide along.
-    const Vector together = n.squaredNorm() > 0 ? Vector(n.dot(apart) * n) : apart;
-    v += sliding / mass * together;
-    const Vector jump = apart - together;
-    u = v + jump;
-    const double after = 0.5 * (rest * v.squaredNorm() + sliding * u.squaredNorm());
-    v += node_follows(sliding, mass) * jump;
+    Vector jump = n ? Vector(apart - n->dot(apart) * *n) : Vector::Zero();
+    if (jump.squaredNorm() < no_jump * no_jump * (u.squaredNorm() + v.squaredNorm())) {
+      jump.setZero();
+    }
+    const Vector together = apart - jump;
+    v += sliding / mass * together + node_follows(sliding, mass) * jump;
     for (int d = 0; d < Dim; ++d) {
       m_.velocity[static_cast<std::size_t>(d)].row(r)[i] = v[d];
       s_.jump[static_cast<std::size_t>(d)].row(r)[i] = jump[d];
     }
-    return before - after;
+    // The jump kept is the part of `apart` across what is lost (but for its round-off).
+    return 0.5 * rest * sliding / mass * (together.squaredNorm() + 2 * together.dot(jump));
   }
 
   Mesh<Dim>& m_;

@@ -12,23 +12,30 @@ namespace {
 
 constexpr double flush_fraction = 1e-6; ///< a donor left with less than this gives it all
 
-/// Volumes of the materials in the slab of a mixed donor that `volume` of the cell's `of` takes at its high or low end.
+/// A mixed cell that gives through a face.
+struct Donor {
+  int row, index, axis;
+  double volume;   ///< m3 of the cell
+  double swept;    ///< m3 through the face along +axis, not zero
+  double opposite; ///< m3 that leave through the opposite face, not negative
+};
+
+/// Volumes of the materials in the slab that `swept` takes at the donor's high or low end.
 template <int Dim>
-void slabs(const Reconstruction<Dim>& cell, int axis, bool high, double volume, double of, double* out) {
-  const double part = std::min(1.0, volume / of);
-  slab_volumes<Dim>(cell.planes, cell.count - 1, axis, high ? 1 - part : 0.0, high ? 1.0 : part, out);
+void slabs(const Reconstruction<Dim>& cell, const Donor& donor, bool high, double swept, double* out) {
+  const double part = std::min(1.0, swept / donor.volume);
+  slab_volumes<Dim>(cell.planes, cell.count - 1, donor.axis, high ? 1 - part : 0.0, high ? 1.0 : part, out);
   for (int q = 0; q < cell.count; ++q) {
-    out[q] *= of;
+    out[q] *= donor.volume;
   }
 }
 
 /// Lowers what a face may take of each material (`most`, what the cell holds) so that the opposite face, which does the
 /// same, can take its own: its slab, and of what neither slab holds the share that it needs to fill its total.
 template <int Dim>
-void leave_for_opposite(const Reconstruction<Dim>& cell, int axis, double t, double opposite, double volume, const double* slab, double* most) {
-  double other[most_materials], need = std::abs(t), other_need = opposite;
-  slabs(cell, axis, !(t > 0), opposite, volume, other);
-  double own[most_materials];
+void leave_for_opposite(const Reconstruction<Dim>& cell, const Donor& donor, const double* slab, double* most) {
+  double other[most_materials], own[most_materials], need = std::abs(donor.swept), other_need = donor.opposite;
+  slabs(cell, donor, !(donor.swept > 0), donor.opposite, other);
   for (int q = 0; q < cell.count; ++q) {
     own[q] = std::min(slab[q], most[q] - std::min(other[q], most[q]));
     other[q] = std::min(other[q], most[q] - std::min(slab[q], most[q]));
@@ -41,33 +48,32 @@ void leave_for_opposite(const Reconstruction<Dim>& cell, int axis, double t, dou
   }
 }
 
-/// Volumes that a mixed donor gives through one face, into the materials' flux[0] at `face`. `opposite`: what leaves it
-/// through the opposite face (m3, not negative); the two together take no more of a material than there is.
-template <int Dim>
-void mixed_donor(const Mesh<Dim>& m, const Settings& s, int axis, int r, int i, double t, double opposite, FaceRow& out, int face) {
-  const Reconstruction<Dim> cell = reconstruct_cell<Dim>(m.grid, m.materials, s.normal, r, i);
+/// Volumes that a mixed donor gives, into the materials' flux[0] at `face`. The two faces of a cell together take no more
+/// volume of a material than there is.
+template <int Dim> void mixed_donor(const Mesh<Dim>& m, const Settings& s, const Donor& donor, FaceRow& out, int face) {
+  const Reconstruction<Dim> cell = reconstruct_cell<Dim>(m.grid, m.materials, s.normal, donor.row, donor.index);
   const int count = cell.count;
   const int* present = cell.present;
-  const double volume = m.volume.row(r)[i];
   double given[most_materials], most[most_materials], sum = 0;
-  slabs(cell, axis, t > 0, std::abs(t), volume, given);
+  slabs(cell, donor, donor.swept > 0, std::abs(donor.swept), given);
   for (int q = 0; q < count; ++q) {
-    most[q] = m.materials[static_cast<std::size_t>(present[q])]->row(0, r)[i] * volume;
+    most[q] = m.materials[static_cast<std::size_t>(present[q])]->row(0, donor.row)[donor.index] * donor.volume;
   }
-  if (opposite > 0) {
-    leave_for_opposite(cell, axis, t, opposite, volume, given, most);
+  const bool both_give = donor.opposite > 0;
+  if (both_give) {
+    leave_for_opposite(cell, donor, given, most);
   }
   int largest = 0;
   for (int q = 0; q < count; ++q) {
     given[q] = std::min(given[q], most[q]);
-    if (!(opposite > 0) && most[q] - given[q] < flush_fraction * volume && given[q] > 0) {
+    if (!both_give && most[q] - given[q] < flush_fraction * donor.volume && given[q] > 0) {
       given[q] = most[q]; // no sliver stays behind
     }
     sum += given[q];
     largest = most[q] - given[q] > most[largest] - given[largest] ? q : largest;
   }
   // The rest of the face's total comes from, or goes back to, whoever has most left.
-  double rest = std::abs(t) - sum;
+  double rest = std::abs(donor.swept) - sum;
   for (int pass = 0; pass < count && rest != 0; ++pass) {
     const double take = std::clamp(rest, -given[largest], most[largest] - given[largest]);
     given[largest] += take;
@@ -84,7 +90,7 @@ void mixed_donor(const Mesh<Dim>& m, const Settings& s, int axis, int r, int i, 
         double* f = out.flux(present[q], 0);
         std::fill(f, f + out.faces(), 0.0);
       }
-      out.flux(present[q], 0)[face] = std::copysign(given[q], t);
+      out.flux(present[q], 0)[face] = std::copysign(given[q], donor.swept);
     }
   }
 }
@@ -122,7 +128,8 @@ void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& 
     const int owner = t > 0 ? below[i] : above[i];
     if (owner < 0) {
       const double opposite = std::max(0.0, t > 0 ? last_swept[i] : -next_swept[i]);
-      mixed_donor(m, s, axis, t > 0 ? line.row[1] : line.row[2], i + (t > 0 ? line.shift[1] : line.shift[2]), t, opposite, out, i);
+      const int row = t > 0 ? line.row[1] : line.row[2], index = i + (t > 0 ? line.shift[1] : line.shift[2]);
+      mixed_donor(m, s, {row, index, axis, m.volume.row(row)[index], t, opposite}, out, i);
       current = -1;
       continue;
     }
