@@ -22,7 +22,8 @@ namespace {
 constexpr double largest_fall = 0.5; ///< of what a material has above its least energy that a return may take
 constexpr double sliver_share = 1e-4; ///< of a cell, by mass: what holds less gets no heat back, it would boil
 constexpr double least_share = 1e-3; ///< of the node's mass: a trace of either moves with the other
-constexpr double no_rise = 1e-5; ///< a step of fractions makes 32 in 2D, 256 in 3D: round-off has no normal
+constexpr double no_rise = 1e-6;   ///< of a full step's gradient: round-off has no normal
+constexpr double wall_rise = 0.1;  ///< of it: an interface whose gradient along a wall is less runs along the wall
 constexpr double no_jump = 1e-10; ///< of the velocities: the round-off of a jump has a direction, but no meaning
 
 /// Fraction of a cell that slides less the fraction of the rest; mirrored beyond the mesh.
@@ -61,9 +62,6 @@ template <int Dim> std::optional<Eigen::Matrix<double, Dim, 1>> normal_at(const 
       rise[a] += weight;
     }
   }
-  if (rise.squaredNorm() < no_rise * no_rise) {
-    return std::nullopt;
-  }
   Eigen::Matrix<double, Dim, Dim> along = Eigen::Matrix<double, Dim, Dim>::Identity();
   for (int a = 0; a < Dim; ++a) {
     const int last = m.grid.cells[static_cast<std::size_t>(a)];
@@ -76,13 +74,22 @@ template <int Dim> std::optional<Eigen::Matrix<double, Dim, 1>> normal_at(const 
     }
   }
   Vector n = along.inverse() * rise;
+  bool on_wall = false;
   for (int a = 0; a < Dim; ++a) {
     const auto ua = static_cast<std::size_t>(a);
     const bool wall = (node[a] == 0 && m.fixed[ua][0]) || (node[a] == m.grid.cells[ua] && m.fixed[ua][1]);
     n[a] = wall ? 0.0 : n[a];
+    rise[a] = wall ? 0.0 : rise[a];
+    on_wall = on_wall || wall;
   }
-  const double size = n.norm();
-  return size > 0 ? n / size : n;
+  constexpr double step = Dim == 3 ? 256 : 32; // of what takes all to what takes nothing, along one axis
+  if (on_wall && rise.norm() < wall_rise * step) { // the wall mirrors the fractions: across it they have no gradient
+    return Vector::Zero();
+  }
+  if (rise.norm() < no_rise * step) {
+    return std::nullopt;
+  }
+  return n / n.norm();
 }
 
 template <int Dim> class Join {

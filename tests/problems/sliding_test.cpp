@@ -23,7 +23,7 @@ SceneSpec scene_of(const std::string& text) {
 }
 
 /// A rod of lead without strength, its surface 0.3 of a cell beyond a mesh line, drawn along z through water at rest.
-std::string rod(bool sliding) {
+std::string rod(bool sliding, double radius = 2.65) {
   return fmt::format(R"(
 title = "rod"
 geometry = "axisymmetric"
@@ -37,20 +37,20 @@ shape = {{ box = {{ from = ["0 mm", "-20 mm"], to = ["8 mm", "20 mm"] }} }}
 [[body]]
 name = "rod"
 material = "lead"
-shape = {{ box = {{ from = ["0 mm", "-20 mm"], to = ["2.65 mm", "20 mm"] }} }}
+shape = {{ box = {{ from = ["0 mm", "-20 mm"], to = ["{} mm", "20 mm"] }} }}
 velocity = ["0 m/s", "800 m/s"]
 [materials.lead]
 strength = "none"
 [mesh]
 r = {{ from = "0 mm", to = "8 mm", size = "0.5 mm" }}
 z = {{ from = "-20 mm", to = "20 mm", size = "0.5 mm" }}
-)", sliding ? R"(numerics = { sliding = ["water"] })" : "");
+)", sliding ? R"(numerics = { sliding = ["water"] })" : "", radius);
 }
 
 /// Largest departures of the rod and of the water from the speeds they start with, in the middle of their length, where
 /// no wave from the ends has come.
-std::array<double, 2> departures(bool sliding) {
-  const SceneSpec spec = scene_of(rod(sliding));
+std::array<double, 2> departures(bool sliding, double radius = 2.65) {
+  const SceneSpec spec = scene_of(rod(sliding, radius));
   Scene<2> scene = build_scene<2>(spec, 1);
   Clock clock;
   clock.end_time = spec.end_time;
@@ -60,10 +60,11 @@ std::array<double, 2> departures(bool sliding) {
   std::array<double, 2> worst{};
   const int j = b.grid.cells[1] / 2, r = b.grid.node_row(j, 0);
   const auto see = [&](std::size_t who, double departure) { worst[who] = std::max(worst[who], std::abs(departure)); };
-  for (int i = 0; i <= 6; ++i) {
-    see(0, b.velocity[1].row(r)[i] - 800);
+  const int cell = static_cast<int>(radius / 0.5); // that holds the surface
+  for (int i = 0; i <= cell + 1; ++i) {
+    see(0, velocity_of(b, false, 1, r, i) - 800);
   }
-  for (int i = 5; i <= b.grid.cells[0]; ++i) {
+  for (int i = cell; i <= b.grid.cells[0]; ++i) {
     see(1, velocity_of(b, true, 1, r, i));
   }
   return worst;
@@ -72,6 +73,13 @@ std::array<double, 2> departures(bool sliding) {
 TEST(Sliding, AlongAStraightInterfaceBothKeepTheirSpeed) {
   const auto worst = departures(true);
   EXPECT_LT(worst[0], 1e-9); // of 800 m/s
+  EXPECT_LT(worst[1], 1e-9);
+}
+
+/// A rod thinner than a cell: the node on the axis holds both, and its wall runs along their interface.
+TEST(Sliding, AlongAWallBothKeepTheirSpeed) {
+  const auto worst = departures(true, 0.4);
+  EXPECT_LT(worst[0], 1e-9); // welded: 38 m/s
   EXPECT_LT(worst[1], 1e-9);
 }
 
@@ -205,14 +213,14 @@ struct Disturbance {
   double impact = 0;               ///< J/m, Ledger::sliding_impact
 };
 
-/// Lead without strength slides at 400 m/s along its slanted face, 30 degrees to the mesh, in water that cannot spall.
-Disturbance slanted_slip(double size) {
+/// Lead without strength slides at 400 m/s along its slanted face, 30 degrees to the mesh, in water.
+Disturbance slanted_slip(const std::string& numerics, double size) {
   const SceneSpec spec = scene_of(fmt::format(R"(
 title = "slanted slip"
 geometry = "planar"
 end_time = "4 us"
 ambient = {{ pressure = "0 Pa" }}
-numerics = {{ sliding = ["water"], spall = false }}
+numerics = {{ {1} }}
 background = "water"
 [[body]]
 name = "plate"
@@ -224,7 +232,7 @@ strength = "none"
 [mesh]
 x = {{ from = "-20 mm", to = "20 mm", size = "{0} mm" }}
 y = {{ from = "-20 mm", to = "20 mm", size = "{0} mm" }}
-)", size));
+)", size, numerics));
   Scene<2> scene = build_scene<2>(spec, 1);
   Clock clock;
   clock.end_time = spec.end_time;
@@ -250,17 +258,66 @@ y = {{ from = "-20 mm", to = "20 mm", size = "{0} mm" }}
   return worst;
 }
 
-/// Exact: nothing happens. The staircase of mixed cells makes noise, which a finer mesh lessens; welded it is twice as loud.
+/// Exact: nothing happens. The staircase of mixed cells makes noise; what it may be is what was measured, and a fifth.
+/// Welded, the same scene makes 18 and 14 MPa, 9.9 and 8.4 m/s across.
 TEST(Sliding, ASlantedSlipStaysQuiet) {
-  const Disturbance coarse = slanted_slip(0.5), fine = slanted_slip(0.25);
+  const char* no_spall = R"(sliding = ["water"], spall = false)";
+  const Disturbance coarse = slanted_slip(no_spall, 0.5), fine = slanted_slip(no_spall, 0.25);
+  EXPECT_LT(coarse.pressure, 8.6e6); // of rho c 400 m/s = 590 MPa in water
+  EXPECT_LT(coarse.across, 17);
+  EXPECT_LT(coarse.along, 14);
+  EXPECT_LT(fine.pressure, 0.9 * coarse.pressure);
+  EXPECT_LT(fine.across, 0.6 * coarse.across);
+  EXPECT_LT(fine.along, 0.6 * coarse.along);
   for (const Disturbance& d : {coarse, fine}) {
-    EXPECT_LT(d.pressure, 8e6); // of rho c 400 m/s = 590 MPa in water; measured 7.1 and 5.9 MPa
-    EXPECT_LT(d.across, 16);    // 14 and 6.6 m/s
-    EXPECT_LT(d.along, 14);     // 11.5 and 4.4 m/s
-    EXPECT_GE(d.impact, 0); // 28 and 14 J/m of 3.2 kJ/m in a layer of 1 mm
+    EXPECT_GE(d.impact, 0);
+    EXPECT_LT(d.impact, 35); // J/m, of 3.2 kJ/m in a layer of 1 mm
   }
-  EXPECT_LT(fine.pressure, coarse.pressure);
-  EXPECT_LT(fine.across, 0.7 * coarse.across);
+}
+
+/// Water that spalls below -0.1 MPa rectifies that noise: voids open in its tensions and clap shut. Three times louder
+/// than welded (9 MPa, 5.7 m/s), a known limit (docs/numerics.md, "Sliding"); not to grow.
+TEST(Sliding, ASlantedSlipOfWhatSpallsIsLouder) {
+  const Disturbance d = slanted_slip(R"(sliding = ["water"])", 0.5);
+  EXPECT_LT(d.pressure, 36e6);
+  EXPECT_LT(d.across, 27);
+  EXPECT_LT(d.along, 14);
+}
+
+/// Head on along the diagonal of the mesh there is nothing to slide: no node is to keep a jump of round-off, whose
+/// direction would share out the force.
+TEST(Sliding, AHeadOnImpactLeavesNoJump) {
+  const SceneSpec spec = scene_of(R"(
+title = "head on"
+geometry = "planar"
+end_time = "1 us"
+ambient = { pressure = "0 Pa" }
+numerics = { sliding = ["water"] }
+background = "water"
+[[body]]
+name = "plate"
+material = "lead"
+shape = { half_space = { point = ["0 mm", "0.2 mm"], outward = [0.70710678118654752, 0.70710678118654752] } }
+velocity = ["141.4213562373095 m/s", "141.4213562373095 m/s"]
+[materials.lead]
+strength = "none"
+[mesh]
+x = { from = "-10 mm", to = "10 mm", size = "0.5 mm" }
+y = { from = "-10 mm", to = "10 mm", size = "0.5 mm" }
+)");
+  Scene<2> scene = build_scene<2>(spec, 1);
+  Clock clock;
+  clock.end_time = spec.end_time;
+  run(scene, clock);
+  const Block<2>& b = scene.blocks[0];
+  for (int j = 10; j <= 30; ++j) { // away from the sides
+    for (int i = 10; i <= 30; ++i) {
+      for (std::size_t d = 0; d < 2; ++d) {
+        const double jump = b.sliding.jump[d].row(b.grid.node_row(j, 0))[i];
+        EXPECT_TRUE(jump == 0 || std::abs(jump) > 1e-8) << "node " << i << " " << j << ": " << jump;
+      }
+    }
+  }
 }
 
 } // namespace
