@@ -31,7 +31,8 @@ std::vector<double> pack(const Ledger& l) {
   std::vector<double> v = {l.boundary_work, l.ambient_work, l.void_work, l.remap_kinetic_loss, l.remap_kinetic_return,
                            l.energy_out, l.momentum_out[0], l.momentum_out[1], l.momentum_out[2], l.sliver_energy,
                            l.sliver_mass, static_cast<double>(l.slivers), static_cast<double>(l.spalled_cells),
-                           static_cast<double>(l.energy_floors), static_cast<double>(l.retries), static_cast<double>(l.closed_voids), l.sliding_impact};
+                           static_cast<double>(l.energy_floors), static_cast<double>(l.retries), static_cast<double>(l.closed_voids),
+                           l.sliding_impact};
   v.insert(v.end(), l.mass_out.begin(), l.mass_out.end());
   return v;
 }

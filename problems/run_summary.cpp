@@ -73,7 +73,8 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
   }
   if (res.target >= 0) {
     const auto slot = static_cast<std::size_t>(slots_.slot[static_cast<std::size_t>(res.target)]);
-    j["results"]["target"] = {{"cavity_radius_largest_m", cavity_peak_}, {"internal_energy_gain_J", t.internal_energy[slot] - memory_.results[slot]},
+    j["results"]["target"] = {{"cavity_radius_largest_m", cavity_peak_},
+                              {"internal_energy_gain_J", t.internal_energy[slot] - memory_.results[slot]},
                               {"kinetic_energy_J", kinetic_energy(b, static_cast<int>(slot))}};
   }
   for (std::size_t q = 0; q < spec_.gauges.size(); ++q) {

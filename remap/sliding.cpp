@@ -45,7 +45,8 @@ template <int Dim> double contrast(const Mesh<Dim>& m, std::array<int, 3> cell) 
 
 /// Normal of the interface at a node: a unit vector, zero on walls that the interface runs along; nothing without one.
 /// It is the gradient of the fractions of the four cells around the node in each direction, smoothed by a hat two cells
-/// wide on each side: within 3 degrees for a plane wherever it passes. (Two cells in each direction: 5 degrees at the node, 30 a cell off, and all who slide would collide.)
+/// wide on each side: within 3 degrees for a plane wherever it passes. (From two cells in each direction: 5 degrees at
+/// the node, 30 a cell off, and all who slide would collide.)
 template <int Dim> std::optional<Eigen::Matrix<double, Dim, 1>> normal_at(const Mesh<Dim>& m, int i, int j, int k) {
   using Vector = Eigen::Matrix<double, Dim, 1>;
   constexpr double value[4] = {1, 3, 3, 1}, slope[4] = {-1, -1, 1, 1};
