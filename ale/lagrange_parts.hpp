@@ -16,7 +16,8 @@ inline ForceCoefficients force_coefficients(const Numerics& n, double dt) {
 
 /// Sums over the cells of a step.
 template <int Dim> struct StepSums {
-  double void_work = 0, volume_change = 0;
+  double void_work = 0;    ///< J
+  double swept_volume = 0; ///< m3, sum of S.ubar dt: what the reference pressure worked on
   int failed = 0;
   std::array<int, 3> failed_cell = {-1, -1, -1}; ///< the last of them
 };

@@ -283,7 +283,7 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
       scene.ledger.momentum_out[d] -= effects[ib].impulse[d];
     }
     scene.ledger.void_work += sums.void_work;
-    scene.ledger.ambient_work -= b.reference_pressure * sums.volume_change;
+    scene.ledger.ambient_work -= b.reference_pressure * sums.swept_volume;
     if (sums.failed > 0) {
       const auto& c = sums.failed_cell;
       throw NumericalFailure(fmt::format(

@@ -46,6 +46,7 @@ StressRows<Dim> stress_rows(MaterialSlot& slot, int r, int at, const WorkRows<Di
   return s;
 }
 
+/// Parts of a mixed cell with their pressures (absolute: what they work against is not the forces' reference).
 template <int Dim>
 MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume, const Eigen::Vector3d& n) {
   MixedCell cell;
@@ -60,12 +61,11 @@ MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume, const Eig
     p.is_void = slot.is_void;
     p.volume = f * volume;
     if (slot.is_void) {
-      p.pressure = -b.reference_pressure;
-      continue;
+      continue; // pressure 0
     }
     p.mass = slot.store.row(field::mass, r)[i];
     p.energy = slot.store.row(field::energy, r)[i];
-    p.pressure = slot.store.row(slot.pressure_field(), r)[i];
+    p.pressure = slot.store.row(slot.pressure_field(), r)[i] + b.reference_pressure;
     p.modulus = slot.store.row(slot.modulus_field(), r)[i];
     if (slot.strength) {
       p.pressure -= n.dot(deviator_of<Dim>(slot, r, i) * n);
@@ -99,9 +99,35 @@ void strain_parts(Block<Dim>& b,
   }
 }
 
-/// Energy and volumes of one mixed cell. Returns the energy that void took or gave: what the
-/// materials received less what the forces gave, with the reference pressure's part of the void's
-/// volume change.
+/// What viscosity and hourglass control (and the residue of the closure) do in a mixed cell, J, by mass among its parts. A
+/// gas pays no more than half its energy, if others can: a trace of it, cold in a cell of metal, has nothing to give.
+void share_by_mass(const std::vector<MaterialSlot>& slots, const MixedCell& cell, double work, double* share) {
+  constexpr double largest_fall = 0.5;
+  double mass = 0, left = work, bearers = 0;
+  for (int k = 0; k < cell.count; ++k) {
+    mass += cell.part[k].mass;
+  }
+  for (int k = 0; k < cell.count; ++k) {
+    const MixedCell::Part& p = cell.part[k];
+    const bool gas = !p.is_void && std::holds_alternative<IdealGas>(slots[static_cast<std::size_t>(p.material)].material.eos);
+    const double least = -largest_fall * p.mass * std::max(p.energy, 0.0);
+    share[k] = work * (p.mass / mass);
+    if (gas && share[k] < least) {
+      share[k] = least;
+      left -= least;
+    } else {
+      bearers += p.mass;
+    }
+  }
+  for (int k = 0; k < cell.count; ++k) {
+    const MixedCell::Part& p = cell.part[k];
+    const bool bears = share[k] == work * (p.mass / mass);
+    share[k] = bearers > 0 ? (bears ? left * (p.mass / bearers) : share[k]) : work * (p.mass / mass);
+  }
+}
+
+/// Energy and volumes of one mixed cell. Returns the energy that void took or gave: what the materials received less what
+/// the forces and the reference pressure gave.
 template <int Dim>
 double advance_mixed(Scene<Dim>& scene,
                      Block<Dim>& b,
@@ -113,7 +139,7 @@ double advance_mixed(Scene<Dim>& scene,
                      int& failed) {
   const double volume = b.volume.row(r)[i], next_volume = b.next_volume.row(r)[i];
   MixedCell cell = load_mixed(b, r, i, volume, n);
-  const CellPressure whole = mixed_pressure(cell, -b.reference_pressure);
+  const CellPressure whole = mixed_pressure(cell, 0);
   const CellMotion motion{volume,
                           next_volume - volume,
                           w.swept_volume[i],
@@ -125,17 +151,17 @@ double advance_mixed(Scene<Dim>& scene,
   // The closure shares the normal traction's work, the rest of the stress works on each material's
   // own strain (ale/traction), what is left (viscosity, hourglass) goes by mass: the sum is exact.
   const double p_half = motion.pressure - motion.modulus * motion.compression;
-  double rest = w.work[i] + p_half * motion.swept_volume;
-  double deviator[max_materials_in_cell] = {}, own[max_materials_in_cell][9], mass = 0;
+  const double received = w.work[i] - b.reference_pressure * motion.swept_volume;
+  double rest = received + p_half * motion.swept_volume;
+  double deviator[max_materials_in_cell] = {}, own[max_materials_in_cell][9], by_mass[max_materials_in_cell] = {};
   if (b.any_strength()) {
     share_strain(b, cell, n, r, i, gradient_of(w, i), motion.compression, own, deviator);
   }
   for (int k = 0; k < cell.count; ++k) {
-    const MixedCell::Part& p = cell.part[k];
     rest -= deviator[k];
-    mass += p.mass;
   }
-  double taken = 0, sum = 0, void_change = 0;
+  share_by_mass(b.materials, cell, rest, by_mass);
+  double taken = 0, sum = 0;
   int largest = 0;
   for (int k = 0; k < cell.count; ++k) {
     MixedCell::Part& p = cell.part[k];
@@ -146,18 +172,17 @@ double advance_mixed(Scene<Dim>& scene,
     largest =
         part_volume > cell.part[largest].volume + cell.part[largest].volume_change ? k : largest;
     if (p.is_void) {
-      void_change = p.volume_change;
       continue;
     }
-    const double work = p.work + deviator[k] + rest * (p.mass / mass);
-    slot.store.row(field::energy, r)[i] += (work - b.reference_pressure * p.volume_change) / p.mass;
+    const double work = p.work + deviator[k] + by_mass[k];
+    slot.store.row(field::energy, r)[i] += work / p.mass;
     taken += work;
   }
   double& most = b.materials[static_cast<std::size_t>(cell.part[largest].material)].store.row(
       field::fraction, r)[i];
   most += 1 - sum;
   strain_parts<Dim>(b, cell, r, i, dt, own, failed);
-  return taken - w.work[i] + b.reference_pressure * void_change;
+  return taken - received;
 }
 
 template <int Dim>
@@ -167,14 +192,12 @@ void advance_pure(
   if (slot.is_void) {
     return;
   }
-  const double *m = slot.store.row(field::mass, r), *v = b.volume.row(r),
-               *next = b.next_volume.row(r);
+  const double *m = slot.store.row(field::mass, r), *work = w.work, *swept = w.swept_volume;
   double* e = slot.store.row(field::energy, r);
-  const double* work = w.work;
   const double p_ref = b.reference_pressure;
 #pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
-    e[i] += (work[i] - p_ref * (next[i] - v[i])) / m[i];
+    e[i] += (work[i] - p_ref * swept[i]) / m[i]; // as forces of absolute pressures would
   }
   if (slot.strength) {
     failed += update_stress<Dim>(
@@ -208,8 +231,7 @@ void advance_row(Scene<Dim>& scene,
   for (const RowRuns::Run& run : buffer.runs.pure) {
     if (b.materials[static_cast<std::size_t>(run.material)].is_void) {
       for (int i = run.begin; i < run.end; ++i) {
-        sums.void_work += b.reference_pressure * (b.next_volume.row(r)[i] - b.volume.row(r)[i]) -
-                          buffer.rows.work[i];
+        sums.void_work += b.reference_pressure * buffer.rows.swept_volume[i] - buffer.rows.work[i];
       }
     }
     const int before = sums.failed;
@@ -227,8 +249,7 @@ void advance_row(Scene<Dim>& scene,
     sums.void_work += advance_mixed(scene, b, r, i, n, dt, buffer.rows, sums.failed);
     sums.failed_cell = sums.failed > before ? std::array<int, 3>{i, j, k} : sums.failed_cell;
   }
-  sums.volume_change +=
-      lane_sum(b.next_volume.row(r), g.cells[0]) - lane_sum(b.volume.row(r), g.cells[0]);
+  sums.swept_volume += lane_sum(buffer.rows.swept_volume, g.cells[0]);
 }
 
 } // namespace
@@ -248,7 +269,7 @@ template <int Dim> StepSums<Dim> work_pass(Scene<Dim>& scene, Block<Dim>& b, dou
   StepSums<Dim> total;
   for (const auto& s : sums) {
     total.void_work += s.void_work;
-    total.volume_change += s.volume_change;
+    total.swept_volume += s.swept_volume;
     total.failed_cell = s.failed > 0 ? s.failed_cell : total.failed_cell;
     total.failed += s.failed;
   }
