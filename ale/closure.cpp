@@ -132,6 +132,7 @@ void relax(const CellMotion& m, MixedCell& cell) {
     MixedCell::Part& p = cell.part[k];
     const double beta = r[k] / sum;
     p.volume_change = beta * m.volume_change + a * exchange[k];
+    p.slack = beta * (m.swept_volume - m.volume_change);
     p.work = -(beta * (p.pressure - m.modulus * m.compression) * m.swept_volume + a * mean * exchange[k]);
   }
   cap_changes(cell);
@@ -160,6 +161,7 @@ void tipton(const CellMotion& m, MixedCell& cell) {
     MixedCell::Part& p = cell.part[k];
     const double strain = p.volume / m.volume;
     p.volume_change = strain * m.volume_change + a * exchange[k];
+    p.slack = strain * (m.swept_volume - m.volume_change);
     p.work = -p_half * (strain * m.swept_volume + a * exchange[k]);
   }
   cap_changes(cell);
@@ -176,6 +178,7 @@ void equal_strain(const CellMotion& m, MixedCell& cell) {
   for (int k = 0; k < cell.count; ++k) {
     MixedCell::Part& p = cell.part[k];
     p.volume_change = p.volume / m.volume * m.volume_change;
+    p.slack = p.volume / m.volume * (m.swept_volume - m.volume_change);
     // The force used p_half; what differs from the fractions' mean goes by volume.
     p.work = -(share[k] + p.volume / m.volume * (p_half - mean)) * m.swept_volume;
   }

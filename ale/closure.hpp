@@ -23,6 +23,7 @@ struct MixedCell {
     double volume = 0, mass = 0, energy = 0, pressure = 0, modulus = 0, sound_speed = 0;
     double volume_change = 0; ///< out, m3
     double work = 0;          ///< out, pressure work of gauge pressures, J
+    double slack = 0;         ///< out, m3: part's share of swept_volume - volume_change, which the work has and volume_change not
   } part[max_materials_in_cell];
 };
 

@@ -46,7 +46,6 @@ StressRows<Dim> stress_rows(MaterialSlot& slot, int r, int at, const WorkRows<Di
   return s;
 }
 
-/// Parts of a mixed cell with their pressures (absolute: what they work against is not the forces' reference).
 template <int Dim>
 MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume, const Eigen::Vector3d& n) {
   MixedCell cell;
@@ -61,11 +60,12 @@ MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume, const Eig
     p.is_void = slot.is_void;
     p.volume = f * volume;
     if (slot.is_void) {
-      continue; // pressure 0
+      p.pressure = -b.reference_pressure;
+      continue;
     }
     p.mass = slot.store.row(field::mass, r)[i];
     p.energy = slot.store.row(field::energy, r)[i];
-    p.pressure = slot.store.row(slot.pressure_field(), r)[i] + b.reference_pressure;
+    p.pressure = slot.store.row(slot.pressure_field(), r)[i];
     p.modulus = slot.store.row(slot.modulus_field(), r)[i];
     if (slot.strength) {
       p.pressure -= n.dot(deviator_of<Dim>(slot, r, i) * n);
@@ -139,7 +139,7 @@ double advance_mixed(Scene<Dim>& scene,
                      int& failed) {
   const double volume = b.volume.row(r)[i], next_volume = b.next_volume.row(r)[i];
   MixedCell cell = load_mixed(b, r, i, volume, n);
-  const CellPressure whole = mixed_pressure(cell, 0);
+  const CellPressure whole = mixed_pressure(cell, -b.reference_pressure);
   const CellMotion motion{volume,
                           next_volume - volume,
                           w.swept_volume[i],
@@ -151,8 +151,7 @@ double advance_mixed(Scene<Dim>& scene,
   // The closure shares the normal traction's work, the rest of the stress works on each material's
   // own strain (ale/traction), what is left (viscosity, hourglass) goes by mass: the sum is exact.
   const double p_half = motion.pressure - motion.modulus * motion.compression;
-  const double received = w.work[i] - b.reference_pressure * motion.swept_volume;
-  double rest = received + p_half * motion.swept_volume;
+  double rest = w.work[i] + p_half * motion.swept_volume;
   double deviator[max_materials_in_cell] = {}, own[max_materials_in_cell][9], by_mass[max_materials_in_cell] = {};
   if (b.any_strength()) {
     share_strain(b, cell, n, r, i, gradient_of(w, i), motion.compression, own, deviator);
@@ -174,7 +173,8 @@ double advance_mixed(Scene<Dim>& scene,
     if (p.is_void) {
       continue;
     }
-    const double work = p.work + deviator[k] + by_mass[k];
+    // The reference pressure works on the volume the forces worked on: else a thin gas would pay for the difference.
+    const double work = p.work + deviator[k] + by_mass[k] - b.reference_pressure * (p.volume_change + p.slack);
     slot.store.row(field::energy, r)[i] += work / p.mass;
     taken += work;
   }
@@ -182,7 +182,7 @@ double advance_mixed(Scene<Dim>& scene,
       field::fraction, r)[i];
   most += 1 - sum;
   strain_parts<Dim>(b, cell, r, i, dt, own, failed);
-  return taken - received;
+  return taken - (w.work[i] - b.reference_pressure * motion.swept_volume);
 }
 
 template <int Dim>
