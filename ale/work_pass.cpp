@@ -99,33 +99,6 @@ void strain_parts(Block<Dim>& b,
   }
 }
 
-/// What viscosity and hourglass control (and the residue of the closure) do in a mixed cell, J, by mass among its parts. A
-/// gas pays no more than half its energy, if others can: a trace of it, cold in a cell of metal, has nothing to give.
-void share_by_mass(const std::vector<MaterialSlot>& slots, const MixedCell& cell, double work, double* share) {
-  constexpr double largest_fall = 0.5;
-  double mass = 0, left = work, bearers = 0;
-  for (int k = 0; k < cell.count; ++k) {
-    mass += cell.part[k].mass;
-  }
-  for (int k = 0; k < cell.count; ++k) {
-    const MixedCell::Part& p = cell.part[k];
-    const bool gas = !p.is_void && std::holds_alternative<IdealGas>(slots[static_cast<std::size_t>(p.material)].material.eos);
-    const double least = -largest_fall * p.mass * std::max(p.energy, 0.0);
-    share[k] = work * (p.mass / mass);
-    if (gas && share[k] < least) {
-      share[k] = least;
-      left -= least;
-    } else {
-      bearers += p.mass;
-    }
-  }
-  for (int k = 0; k < cell.count; ++k) {
-    const MixedCell::Part& p = cell.part[k];
-    const bool bears = share[k] == work * (p.mass / mass);
-    share[k] = bearers > 0 ? (bears ? left * (p.mass / bearers) : share[k]) : work * (p.mass / mass);
-  }
-}
-
 /// Energy and volumes of one mixed cell. Returns the energy that void took or gave: what the materials received less what
 /// the forces and the reference pressure gave.
 template <int Dim>
@@ -152,14 +125,14 @@ double advance_mixed(Scene<Dim>& scene,
   // own strain (ale/traction), what is left (viscosity, hourglass) goes by mass: the sum is exact.
   const double p_half = motion.pressure - motion.modulus * motion.compression;
   double rest = w.work[i] + p_half * motion.swept_volume;
-  double deviator[max_materials_in_cell] = {}, own[max_materials_in_cell][9], by_mass[max_materials_in_cell] = {};
+  double deviator[max_materials_in_cell] = {}, own[max_materials_in_cell][9], mass = 0;
   if (b.any_strength()) {
     share_strain(b, cell, n, r, i, gradient_of(w, i), motion.compression, own, deviator);
   }
   for (int k = 0; k < cell.count; ++k) {
     rest -= deviator[k];
+    mass += cell.part[k].mass;
   }
-  share_by_mass(b.materials, cell, rest, by_mass);
   double taken = 0, sum = 0;
   int largest = 0;
   for (int k = 0; k < cell.count; ++k) {
@@ -174,7 +147,7 @@ double advance_mixed(Scene<Dim>& scene,
       continue;
     }
     // The reference pressure works on the volume the forces worked on: else a thin gas would pay for the difference.
-    const double work = p.work + deviator[k] + by_mass[k] - b.reference_pressure * (p.volume_change + p.slack);
+    const double work = p.work + deviator[k] + rest * (p.mass / mass) - b.reference_pressure * (p.volume_change + p.slack);
     slot.store.row(field::energy, r)[i] += work / p.mass;
     taken += work;
   }

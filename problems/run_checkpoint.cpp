@@ -37,12 +37,7 @@ std::vector<double> pack(const Ledger& l) {
   return v;
 }
 
-void unpack(const std::vector<double>& v, Ledger& l, std::size_t materials) {
-  constexpr std::size_t sums = 17; // then the masses
-  if (v.size() != sums + materials) {
-    throw Error(fmt::format("the checkpoint's ledger holds {} sums, this version of the program keeps {}: start the deck anew", v.size(),
-                            sums + materials));
-  }
+void unpack(const std::vector<double>& v, Ledger& l) {
   l.boundary_work = v.at(0);
   l.ambient_work = v.at(1);
   l.void_work = v.at(2);
@@ -115,7 +110,11 @@ void read_checkpoint(const std::filesystem::path& path, Scene<Dim>& scene, Clock
   for (std::size_t q = 0; q < clock.census.size(); ++q) {
     clock.census[q] = static_cast<long>(counts.at(q + 1));
   }
-  unpack(in.get_doubles("ledger"), scene.ledger, scene.ledger.mass_out.size());
+  const auto ledger = in.get_doubles("ledger");
+  if (ledger.size() != pack(scene.ledger).size()) {
+    throw Error(fmt::format("{}: written by a version of the program that kept another ledger; start the deck anew", path.string()));
+  }
+  unpack(ledger, scene.ledger);
   const auto start = in.get_doubles("memory/start");
   memory.energy_start = start.at(0);
   memory.momentum_start = {start.at(1), start.at(2), start.at(3)};

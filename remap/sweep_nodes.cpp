@@ -1,13 +1,11 @@
 // One split sweep of momentum on the dual mesh.
 //
 // Node p owns the shares w of the masses of its cells, M_p = sum w m. Inside cell c the mass that crosses
-// from its lower to its upper node along the axis is G_c = w_high F_low + w_low F_high, with F the face
-// mass fluxes: node masses then stay the sum of their shares exactly, whatever the flow. Velocity is
-// carried by the upwind node's limited value in the mass coordinate. Kinetic energy carried as its own
-// scalar, less what the new velocities hold, is the loss; it returns to the cells by corner mass.
+// from its lower to its upper node along the axis is G_c = w_high F_low + w_low F_high, with F the face mass fluxes: node
+// masses then stay the sum of their shares exactly, whatever the flow. Velocity is carried by the upwind node's limited value
+// in the mass coordinate. Kinetic energy carried as its own scalar, less what the new velocities hold, is the loss.
 #include "core/rows.hpp"
 #include "remap/internal.hpp"
-
 #include "remap/limiter.hpp"
 
 #include <algorithm>
@@ -18,10 +16,8 @@ namespace ballast::remap {
 
 namespace {
 
-/// A donor of velocity has no slope where the cell behind it holds less than this of the mass of the one ahead: next to
-/// nothing, the velocity there means nothing; in scenes that slide, the edge of a group: in the mass coordinate the slope
-/// there is too steep and makes kinetic energy (40 J of 3.2 kJ in 100 us of the main scene). Below 1/4, a strong shock of
-/// a gas, and below 1/3.4, the first two cells of an RZ mesh that grows by 1.1.
+/// No slope where the cell behind a donor of velocity holds less than this of the mass ahead: nothing, whose velocity means
+/// nothing, or, where materials slide, a group's edge (docs/numerics.md). Below 1/4 (strong shock) and 1/3.4 (graded axis).
 constexpr double empty_share = 1e-6, edge_share = 0.2;
 
 struct SlabSums {

@@ -22,6 +22,13 @@ SceneSpec scene_of(const std::string& text) {
   return s;
 }
 
+template <int Dim> void run_to_end(Scene<Dim>& scene, const SceneSpec& spec) {
+  Clock clock;
+  clock.end_time = spec.end_time;
+  run(scene, clock);
+  EXPECT_GT(clock.step, 10);
+}
+
 /// A rod of lead without strength, its surface 0.3 of a cell beyond a mesh line, drawn along z through water at rest.
 std::string rod(bool sliding, double radius = 2.65) {
   return fmt::format(R"(
@@ -52,10 +59,7 @@ z = {{ from = "-20 mm", to = "20 mm", size = "0.5 mm" }}
 std::array<double, 2> departures(bool sliding, double radius = 2.65) {
   const SceneSpec spec = scene_of(rod(sliding, radius));
   Scene<2> scene = build_scene<2>(spec, 1);
-  Clock clock;
-  clock.end_time = spec.end_time;
-  run(scene, clock);
-  EXPECT_GT(clock.step, 10);
+  run_to_end(scene, spec);
   const Block<2>& b = scene.blocks[0];
   std::array<double, 2> worst{};
   const int j = b.grid.cells[1] / 2, r = b.grid.node_row(j, 0);
@@ -93,9 +97,7 @@ template <int Dim> void expect_conserved(const std::string& text) {
   const SceneSpec spec = scene_of(text);
   Scene<Dim> scene = build_scene<Dim>(spec, 2);
   const Totals start = totals(scene.blocks[0]);
-  Clock clock;
-  clock.end_time = spec.end_time;
-  run(scene, clock);
+  run_to_end(scene, spec);
   const Totals end = totals(scene.blocks[0]);
   const Ledger& l = scene.ledger;
   const auto axis = static_cast<std::size_t>(Dim - 1);
@@ -234,9 +236,7 @@ x = {{ from = "-20 mm", to = "20 mm", size = "{0} mm" }}
 y = {{ from = "-20 mm", to = "20 mm", size = "{0} mm" }}
 )", size, numerics));
   Scene<2> scene = build_scene<2>(spec, 1);
-  Clock clock;
-  clock.end_time = spec.end_time;
-  run(scene, clock);
+  run_to_end(scene, spec);
   const Block<2>& b = scene.blocks[0];
   const double tx = 0.8660254, ty = 0.5;
   Disturbance worst;
