@@ -20,7 +20,7 @@ MixedCell::Part* void_part(MixedCell& cell) {
 void cap_changes(MixedCell& cell) {
   bool capped[max_materials_in_cell] = {};
   for (int pass = 0; pass < cell.count; ++pass) {
-    double volume = 0, work = 0, compliance = 0;
+    double volume = 0, work = 0, slack = 0, compliance = 0;
     for (int k = 0; k < cell.count; ++k) {
       MixedCell::Part& p = cell.part[k];
       const double most = largest_part * p.volume;
@@ -29,8 +29,10 @@ void cap_changes(MixedCell& cell) {
         const double own = -(p.pressure - 0.5 * p.modulus * change / p.volume) * change;
         volume += p.volume_change - change;
         work += p.work - own;
+        slack += p.slack;
         p.volume_change = change;
         p.work = own;
+        p.slack = 0;
         capped[k] = true;
       }
     }
@@ -50,6 +52,7 @@ void cap_changes(MixedCell& cell) {
         const double share = p.is_void ? 0 : p.volume / whole;
         p.volume_change += volume * share;
         p.work += work * share;
+        p.slack += slack * share;
       }
       return;
     }
@@ -59,6 +62,7 @@ void cap_changes(MixedCell& cell) {
         const double share = (p.volume / p.modulus) / compliance;
         p.volume_change += volume * share;
         p.work += work * share;
+        p.slack += slack * share;
       }
     }
   }

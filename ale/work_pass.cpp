@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace ballast {
@@ -99,6 +100,39 @@ void strain_parts(Block<Dim>& b,
   }
 }
 
+/// Heat between gas and the condensed materials of its cell: a film of thickness d = f L (L the cell's least width) comes to its
+/// initial temperature, e = e0, at the rate k / (rho cv d^2) with cv = e0 / T0. A trace of gas would else boil: each time it merges
+/// with thinner gas and is squeezed again its entropy grows. What the gas gives, the others get by mass; no heat bath is lighter
+/// than the gas.
+template <int Dim> void conduct(Block<Dim>& b, const MixedCell& cell, int r, int i, double dt) {
+  double bath = 0, width = std::numeric_limits<double>::infinity(), heat = 0;
+  const auto slot_of = [&](int k) -> MaterialSlot& { return b.materials[static_cast<std::size_t>(cell.part[k].material)]; };
+  for (int k = 0; k < cell.count; ++k) {
+    bath += slot_of(k).material.conductivity > 0 ? 0 : cell.part[k].mass;
+  }
+  for (std::size_t d = 0; d < Dim; ++d) {
+    width = std::min(width, b.length[d].row(r)[i]);
+  }
+  for (int k = 0; k < cell.count; ++k) {
+    MaterialSlot& slot = slot_of(k);
+    const double mass = cell.part[k].mass, f = std::as_const(slot.store).row(field::fraction, r)[i];
+    if (!(slot.material.conductivity > 0 && mass > 0 && mass < bath && f > 0 && slot.reference.e > 0)) {
+      continue;
+    }
+    const double heat_of_film = mass / b.next_volume.row(r)[i] * f * width * width * slot.reference.e; // rho cv d^2 T0
+    const double rate = slot.material.conductivity * slot.material.reference_temperature * dt / heat_of_film;
+    double& e = slot.store.row(field::energy, r)[i];
+    const double gain = (slot.reference.e - e) * (rate / (1 + rate));
+    e += gain;
+    heat -= gain * mass;
+  }
+  for (int k = 0; k < cell.count && heat != 0; ++k) {
+    if (cell.part[k].mass > 0 && slot_of(k).material.conductivity == 0) {
+      slot_of(k).store.row(field::energy, r)[i] += heat / bath;
+    }
+  }
+}
+
 /// Energy and volumes of one mixed cell. Returns the energy that void took or gave: what the materials received less what
 /// the forces and the reference pressure gave.
 template <int Dim>
@@ -154,6 +188,7 @@ double advance_mixed(Scene<Dim>& scene,
   double& most = b.materials[static_cast<std::size_t>(cell.part[largest].material)].store.row(
       field::fraction, r)[i];
   most += 1 - sum;
+  conduct(b, cell, r, i, dt);
   strain_parts<Dim>(b, cell, r, i, dt, own, failed);
   return taken - (w.work[i] - b.reference_pressure * motion.swept_volume);
 }

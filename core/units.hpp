@@ -20,6 +20,7 @@ enum class Dimension {
   temperature,
   angle,
   specific_heat,
+  conductivity,
   rate
 };
 

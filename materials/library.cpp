@@ -133,8 +133,9 @@ Material air() {
           .eos = IdealGas{1.4},
           .density = 1.2,
           .specific_heat = 719,
+          .conductivity = 0.026,
           .source =
-              "gamma 1.4, 1.2 kg/m3, cv 719 J/kg/K: AWG card [R:M4 2nd] and common knowledge [K1]",
+              "gamma 1.4, 1.2 kg/m3, cv 719 J/kg/K: AWG card [R:M4 2nd] and common knowledge [K1]; 0.026 W/m/K [K1]",
           .confidence = "K1"};
 }
 
@@ -216,6 +217,7 @@ std::string describe(const Material& m) {
     out += fmt::format("  heat        {:g} J/kg/K", m.specific_heat);
     out += m.melt_temperature > 0 ? fmt::format(", melts at {:g} K\n", m.melt_temperature) : "\n";
   }
+  out += m.conductivity > 0 ? fmt::format("  conducts    {:g} W/m/K\n", m.conductivity) : "";
   return out + fmt::format("  source      {}\n  confidence  {}\n", m.source, m.confidence);
 }
 

@@ -19,6 +19,7 @@ struct Material {
   /// Void opens when the pressure falls below this (negative, Pa); minus infinity: never.
   double spall_pressure = -std::numeric_limits<double>::infinity();
   double specific_heat = 0;           ///< J/kg/K, 0: not known
+  double conductivity = 0;            ///< of heat, W/m/K: of gases only (ale/work_pass), 0: adiabatic
   double reference_temperature = 293; ///< K
   double melt_temperature = 0;        ///< K, 0: not known
   std::string source;      ///< where each number is from

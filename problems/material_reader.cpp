@@ -18,7 +18,7 @@ struct ModelKeys {
 };
 const std::vector<ModelKeys>& eos_keys() {
   static const std::vector<ModelKeys> table = {
-      {"ideal_gas", {"gamma"}},
+      {"ideal_gas", {"gamma", "conductivity"}},
       {"stiffened_gas", {"gamma", "p_infinity"}},
       {"mie_gruneisen", {"c0", "s", "gamma0", "gamma_constant"}}};
   return table;
@@ -70,18 +70,22 @@ void set(double& value, const Section& in, const char* key) {
 }
 
 void read_eos(Deck& deck, const Section& in, Material& m, bool fresh) {
+  constexpr double gas_conductivity = 0.026; // W/m/K, air's: other gases 0.01 to 0.18
   std::size_t model = m.eos.index();
   if (in.has("eos")) {
     model = static_cast<std::size_t>(in.choice("eos"));
     fresh = fresh || model != m.eos.index();
   }
   refuse_foreign(deck, in, eos_keys(), model);
+  m.conductivity = model == 0 ? m.conductivity : 0;
   if (model == 0) {
     IdealGas eos = fresh ? IdealGas{} : std::get<IdealGas>(m.eos);
     if (fresh) {
       have(deck, in, {"gamma"}, "ideal_gas");
+      m.conductivity = gas_conductivity;
     }
     set(eos.gamma, in, "gamma");
+    set(m.conductivity, in, "conductivity");
     m.eos = eos;
   } else if (model == 1) {
     StiffenedGas eos = fresh ? StiffenedGas{} : std::get<StiffenedGas>(m.eos);
