@@ -104,6 +104,10 @@ int main(int argc, char** argv) {
   ballast::keep_freed_memory();
   const int threads = argc > 1 ? std::atoi(argv[1]) : 1;
   const int only = argc > 2 ? std::atoi(argv[2]) : 0;
+  if (threads < 1 || only < 0 || only > 3) {
+    std::fprintf(stderr, "usage: ballast_bench [threads, 1 or more [case, 1 to 3]]\n");
+    return 2;
+  }
   if (only == 0) {
     std::printf("%d thread(s), stream triad %.1f GB/s on one\n", threads, triad());
   }
