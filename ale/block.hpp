@@ -45,15 +45,21 @@ struct MaterialSlot {
   int flow_stress_field() const { return store.conserved() + 2; } ///< with strength only
 };
 
-enum class MotionPolicy { lagrangian, eulerian };
+enum class MotionPolicy {
+  lagrangian, ///< never remapped
+  eulerian,   ///< back to the initial mesh
+  follow      ///< back to the initial mesh, moved with the centre of mass of some materials
+};
 
 struct Motion {
   MotionPolicy policy = MotionPolicy::eulerian;
   int remap_every = 1;
+  std::vector<int> leaders = {};                        ///< follow: materials of the block
+  std::array<bool, 3> axes = {false, false, false};     ///< follow: along which axes
+  std::array<double, 3> start = {0, 0, 0};              ///< follow: where the centre of mass was at first, m
 
-  bool due(long step) const {
-    return policy == MotionPolicy::eulerian && (step + 1) % remap_every == 0;
-  }
+  bool remaps() const { return policy != MotionPolicy::lagrangian; }
+  bool due(long step) const { return remaps() && (step + 1) % remap_every == 0; }
 };
 
 inline constexpr std::int8_t mixed_cell = -1;
@@ -67,7 +73,8 @@ template <int Dim> struct Block {
   double reference_pressure = 0; ///< Pa; forces use p minus this
 
   std::array<RowField, Dim> position, velocity, next_position, next_velocity;
-  std::array<RowField, Dim> target; ///< where an eulerian block returns to
+  std::array<RowField, Dim> target; ///< where the next remap brings the nodes
+  std::array<RowField, Dim> home;   ///< follow: where target was at first, along the axes that move
   RowField node_mass;
   /// Share of a cell's mass that goes to the lower node of each axis, by cell index + ghost.
   std::array<std::vector<double>, Dim> low_share;

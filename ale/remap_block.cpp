@@ -90,6 +90,7 @@ template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
 } // namespace
 
 template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step) {
+  place_target(b);
   remap::Mesh<Dim> mesh = view(b);
   const remap::Settings settings{.normal = scene.numerics.normal, .return_kinetic = scene.numerics.energy_return};
   const std::vector<OutflowNode> leaving = outflow_nodes(b);

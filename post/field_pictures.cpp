@@ -264,15 +264,16 @@ Series make_series(const std::vector<Section>& sections, const std::string& titl
 int draw_field_pictures(const std::vector<Section>& sections,
                         const std::string& title,
                         const std::filesystem::path& folder,
-                        std::ostream& log) {
+                        std::ostream& log,
+                        const std::optional<View>& asked) {
   const Series series = make_series(sections, title);
   if (series.panels.empty()) {
     log << "no picture of the fields: the dumps hold none of material, pressure, speed\n";
     return 0;
   }
   const View whole = whole_view(sections, series.mirrored);
-  std::optional<View> close;
-  if (series.panels.back().field == Field::speed)
+  std::optional<View> close = asked;
+  if (!close && series.panels.back().field == Field::speed)
     close = close_up(sections, whole, series.mirrored, series.panels.back().scale->high);
   int pictures = 0;
   const auto draw =

@@ -4,11 +4,14 @@
 #include <fmt/core.h>
 #include <fstream>
 #include <ostream>
+#include <optional>
 #include <regex>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "core/io/history.hpp"
 #include "core/io/vtk.hpp"
+#include "core/units.hpp"
 #include "post/field_pictures.hpp"
 #include "post/history_pictures.hpp"
 #include "post/profile_pictures.hpp"
@@ -56,19 +59,35 @@ void remove_old_pictures(const fs::path& folder) {
 int report_fields(const fs::path& dir,
                   const std::string& title,
                   const fs::path& folder,
-                  std::ostream& log) {
+                  std::ostream& log,
+                  const std::optional<View>& close) {
   std::vector<Section> sections;
   for (const io::PvdEntry& entry : chosen_times(io::read_pvd(dir / "fields.pvd")))
     sections.push_back(read_section(dir / entry.file, entry.time));
   if (sections.empty())
     return 0;
   return is_one_dimensional(sections) ? draw_profile_pictures(sections, title, folder, log)
-                                      : draw_field_pictures(sections, title, folder, log);
+                                      : draw_field_pictures(sections, title, folder, log, close);
+}
+
+View read_view(const std::string& text) {
+  std::vector<double> ends;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, ',');) {
+    const Quantity q = parse_quantity(part, Dimension::length);
+    if (!q.ok())
+      throw Error(fmt::format("--view {}: {}", text, q.problem));
+    ends.push_back(q.value);
+  }
+  if (ends.size() != 4 || !(ends[0] < ends[1]) || !(ends[2] < ends[3]))
+    throw Error(fmt::format("--view {}: four lengths are wanted, each end above its start: \"-8 mm, 8 mm, 0 mm, 30 mm\"", text));
+  return {{ends[0], ends[1]}, {ends[2], ends[3]}};
 }
 
 } // namespace
 
-int report(const std::string& run_dir, std::ostream& log) {
+int report(const std::string& run_dir, std::ostream& log, const std::string& view) {
+  const std::optional<View> close = view.empty() ? std::nullopt : std::optional(read_view(view));
   const fs::path dir = run_dir, folder = dir / "pictures";
   const bool fields = fs::exists(dir / "fields.pvd"), history = fs::exists(dir / "history.csv");
   if (!fields && !history)
@@ -80,7 +99,7 @@ int report(const std::string& run_dir, std::ostream& log) {
   const std::string title = run_title(dir);
   int pictures = 0;
   if (fields)
-    pictures += report_fields(dir, title, folder, log);
+    pictures += report_fields(dir, title, folder, log, close);
   if (history)
     pictures += draw_history_pictures(io::read_csv(dir / "history.csv"), title, folder, log);
   log << fmt::format("{} pictures in {}\n", pictures, folder.string());

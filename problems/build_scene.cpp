@@ -40,7 +40,7 @@ bool needs_void(const SceneSpec& spec) {
   bool free = false; // behind a free side of an eulerian mesh there is void, and it may flow in
   for (std::size_t axis = 0; axis < spec.boundaries.size() && !spec.mesh_lines[axis].empty(); ++axis) {
     for (const Boundary& side : spec.boundaries[axis]) {
-      free = free || (side.kind == BoundaryKind::free && spec.motion.policy == MotionPolicy::eulerian);
+      free = free || (side.kind == BoundaryKind::free && spec.motion.remaps());
     }
   }
   return spec.background < 0 || spall || holes || free;
@@ -193,7 +193,7 @@ template <int Dim> void release_to_vacuum(Block<Dim>& b) {
 template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   for (const auto& axis : spec.boundaries) {
     for (const Boundary& side : axis) {
-      if (side.kind == BoundaryKind::wall && side.wall_velocity != 0 && spec.motion.policy == MotionPolicy::eulerian) {
+      if (side.kind == BoundaryKind::wall && side.wall_velocity != 0 && spec.motion.remaps()) {
         throw Error("mesh: a moving wall needs motion.policy = \"lagrangian\": an eulerian mesh stays where it is");
       }
     }
@@ -206,6 +206,9 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   Block<Dim> b;
   b.axisymmetric = spec.geometry == Geometry::axisymmetric;
   b.motion = spec.motion;
+  for (int& leader : b.motion.leaders) {
+    leader = slots.slot[static_cast<std::size_t>(leader)];
+  }
   b.reference_pressure = spec.ambient_pressure;
   b.materials.resize(spec.materials.size());
   for (std::size_t m = 0; m < spec.materials.size(); ++m) {

@@ -30,7 +30,18 @@ struct CheckOptions {
   std::vector<std::string> settings;
 };
 
+struct StudyOptions {
+  std::string deck;
+  std::vector<std::string> vary;      ///< "key=v1,v2"
+  std::vector<std::string> settings;  ///< --set, for all
+  std::string reference = "finest";   ///< or a deck
+  std::string out;                    ///< folder; empty: studies/<deck's name>
+  int jobs = 1, threads = 0;          ///< runs at once; threads of each, 0: the machine's shared by the jobs
+};
+
 int run_command(const RunOptions& options);
+/// `folder`: out, where the tables are.
+int study_command(const StudyOptions& options, std::string& folder);
 int verify_command(const VerifyOptions& options);
 int check_command(const CheckOptions& options);
 /// Prints one material, or all; an unknown name throws Error.

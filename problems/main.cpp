@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/fp_traps.hpp"
 #include "post/report.hpp"
+#include "post/study_pictures.hpp"
 #include "problems/commands.hpp"
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -60,20 +61,32 @@ int dispatch(int argc, char** argv) {
   sub->add_flag("--list", verify.list, "only name the cases");
   sub->add_option("--threads", verify.threads, "threads; default all")->check(CLI::Range(1, 4096));
 
-  std::string study_deck;
-  std::vector<std::string> vary;
-  sub = word(app, "study", "vary keys of a deck (not available yet)", result, []() -> int {
-    throw ballast::Error("study is not available yet");
+  ballast::StudyOptions study;
+  sub = word(app, "study", "run a deck over a grid of key values: cost and error of each", result, [&] {
+    std::string folder;
+    const int code = ballast::study_command(study, folder);
+    std::cout << "tables: " << folder << "/study.csv, study.md\n";
+    ballast::post::draw_study(folder, std::cout);
+    return code;
   });
-  sub->add_option("deck", study_deck);
-  sub->add_option("--vary", vary);
+  sub->add_option("deck", study.deck, "the deck, DECK.toml")->required();
+  sub->add_option("--vary", study.vary, "key.path=value,value,...; keys joined by + vary together; may be repeated: all combinations")
+      ->required()
+      ->expected(1)
+      ->take_all();
+  sub->add_option("--set", study.settings, "key.path=value, for all runs; may be repeated")->expected(1)->take_all();
+  sub->add_option("--reference", study.reference, "what errors are against: finest (most cells) or a deck, REFERENCE.toml");
+  sub->add_option("--out", study.out, "folder of the study; what it holds of these runs is kept");
+  sub->add_option("--jobs", study.jobs, "runs at once")->check(CLI::Range(1, 4096));
+  sub->add_option("--threads", study.threads, "threads of each run; default: the machine's shared by the jobs")->check(CLI::Range(1, 4096));
 
-  std::string dir;
+  std::string dir, view;
   sub = word(app, "report", "pictures and a page of a run directory", result, [&] {
-    ballast::post::report(dir, std::cout);
+    ballast::post::report(dir, std::cout, view);
     return status(ExitStatus::finished);
   });
   sub->add_option("dir", dir, "run directory")->required();
+  sub->add_option("--view", view, "what the close-ups show: \"-8 mm, 8 mm, 0 mm, 30 mm\" (first axis, second axis)");
 
   std::string material;
   sub = word(app, "materials", "named materials and their sources", result, [&] {

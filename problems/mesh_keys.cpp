@@ -5,6 +5,18 @@ namespace ballast::scene_keys {
 
 using enum KeyKind;
 
+const SectionSpec& mesh() {
+  static const SectionSpec spec = {
+      "[mesh]",
+      "One table an axis (below), and:",
+      {{.name = "refine",
+        .kind = quantity,
+        .doc = "every cell size is divided by it, every count of cells times it: for studies of the resolution",
+        .range = {0.01, 100},
+        .fallback = "1"}}};
+  return spec;
+}
+
 const SectionSpec& mesh_axis() {
   static const SectionSpec spec = {
       "[mesh.AXIS]",
@@ -71,16 +83,19 @@ const SectionSpec& motion() {
       "The mesh always takes a Lagrangian step; this says what happens after it.",
       {{.name = "policy",
         .kind = choice,
-        .doc = "lagrangian: never remapped; eulerian: back to the initial mesh; relax and follow "
-               "are not available "
-               "yet",
+        .doc = "lagrangian: never remapped; eulerian: back to the initial mesh; follow: to the initial mesh moved along "
+               "with `bodies`; relax is not available yet",
         .fallback = "eulerian",
-        .choices = {"lagrangian", "eulerian", "relax", "follow"}},
+        .choices = {"lagrangian", "eulerian", "follow", "relax"}},
        {.name = "remap_every",
         .kind = integer,
-        .doc = "steps between remaps (eulerian)",
+        .doc = "steps between remaps",
         .range = {1, 1e6},
-        .fallback = "1"}}};
+        .fallback = "1"},
+       {.name = "bodies",
+        .kind = texts,
+        .doc = "follow: bodies whose materials' centre of mass the mesh goes with"},
+       {.name = "axes", .kind = choices, .doc = "follow: axes along which it goes; default: where these bodies have a velocity", .choices = {"z", "x", "y"}}}};
   return spec;
 }
 

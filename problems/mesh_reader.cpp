@@ -4,6 +4,7 @@
 #include "problems/scene_reading.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace ballast {
@@ -93,7 +94,7 @@ std::vector<double> equal_lines(double from, double to, int cells) {
   return nodes;
 }
 
-std::vector<double> read_lines(Context c, const Section& in) {
+std::vector<double> read_lines(Context c, const Section& in, double refine) {
   DeckNode* to = in.node("to");
   DeckNode* size = in.node("size");
   DeckNode& self = in.self();
@@ -118,20 +119,22 @@ std::vector<double> read_lines(Context c, const Section& in) {
     return {};
   }
   plan.to = *places;
-  plan.size = *sizes;
+  for (const double s : *sizes) {
+    plan.size.push_back(s / refine);
+  }
   if (size != nullptr) {
     return check_sizes(c, plan, *size) ? mesh_lines(plan) : std::vector<double>{};
   }
   if (!in.has("cells")) {
     return {};
   }
-  if (in.integer("cells") > most_cells || plan.to.size() > 1) {
+  if (in.integer("cells") * refine > most_cells || plan.to.size() > 1) {
     c.deck.fail(*in.node("cells"),
                 "needs one place in `to`",
                 "2e8 cells at most, equal between `from` and `to`");
     return {};
   }
-  return equal_lines(plan.from, plan.to[0], in.integer("cells"));
+  return equal_lines(plan.from, plan.to[0], static_cast<int>(std::max(1.0, std::round(in.integer("cells") * refine))));
 }
 
 void read_wall(Context c, const Section& in, Boundary& side) {
@@ -280,8 +283,11 @@ void read_mesh(Deck& deck,
                SceneSpec& scene) {
   const Context c{deck, book, scene};
   const std::vector<std::string> names = axis_names(scene.geometry);
+  double refine = 1;
   for (auto& [name, node] : mesh.fields) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
+    if (name == "refine") {
+      refine = read_quantity(deck, node, Dimension::none, scene_keys::mesh().keys[0].range) ? node.number : 1;
+    } else if (std::find(names.begin(), names.end(), name) == names.end()) {
       deck.fail_key(
           node, fmt::format("no axis of a {} scene", name_of(scene.geometry)), one_of(names));
     }
@@ -303,7 +309,7 @@ void read_mesh(Deck& deck,
       continue;
     }
     const Section in = read_section(deck, *node, scene_keys::mesh_axis());
-    scene.mesh_lines[axis] = read_lines(c, in);
+    scene.mesh_lines[axis] = read_lines(c, in, refine);
     const bool symmetric =
         std::find(symmetry.begin(), symmetry.end(), names[axis]) != symmetry.end();
     read_sides(c, in, axis, symmetric);

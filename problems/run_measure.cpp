@@ -184,13 +184,14 @@ template <int Dim>
 std::array<int, 3> find_cell(const Block<Dim>& b, const std::array<double, 3>& at) {
   const Grid& g = b.grid;
   std::array<int, 3> cell = {0, 0, 0};
-  if (b.motion.policy == MotionPolicy::eulerian) {
+  if (b.motion.remaps()) {
+    const auto& lines = b.motion.policy == MotionPolicy::follow ? b.position : b.target;
     for (int axis = 0; axis < Dim; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
       int c = 0;
       while (c + 1 < g.cells[a]) {
         const int j = axis == 1 ? c + 1 : 0, k = axis == 2 ? c + 1 : 0;
-        if (b.target[a].row(g.node_row(j, k))[axis == 0 ? c + 1 : 0] > at[a]) {
+        if (lines[a].row(g.node_row(j, k))[axis == 0 ? c + 1 : 0] > at[a]) {
           break;
         }
         ++c;

@@ -16,19 +16,18 @@ namespace {
 volatile std::sig_atomic_t interrupted = 0;
 void on_signal(int) { interrupted = 1; }
 
-/// FNV-1a, 64 bit: tells decks apart, no more.
-std::string hash_of(const std::string& text) {
-  std::uint64_t h = 1469598103934665603ULL;
-  for (const char c : text) {
-    h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  }
-  return fmt::format("{:016x}", h);
-}
-
 constexpr double progress_every = 2;       // s on a terminal
 constexpr double plain_progress_every = 15; // s else
 
 } // namespace
+
+std::string deck_hash(const ReadScene& read) {
+  std::uint64_t h = 1469598103934665603ULL;
+  for (const char c : read.resolved) {
+    h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  }
+  return fmt::format("{:016x}", h);
+}
 
 double seconds_since(std::chrono::steady_clock::time_point t) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
@@ -39,7 +38,7 @@ RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& 
     : read_(read), spec_(read.scene), dir_(dir), scene_(build_scene<Dim>(read.scene, threads)), slots_(slot_map(read.scene)),
       restarted_(!restart.empty()), terminal_(isatty(STDOUT_FILENO) != 0) {
   clock_.end_time = spec_.end_time;
-  memory_.deck_hash = hash_of(read.resolved);
+  memory_.deck_hash = deck_hash(read);
   if (restarted_) {
     read_checkpoint(restart, scene_, clock_, memory_);
     const auto& o = memory_.observed;

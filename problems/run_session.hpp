@@ -21,6 +21,9 @@ struct EnergyAccount {
   double unaccounted = 0; ///< total - start - known
 };
 
+/// Of the resolved deck, FNV-1a 64 bit: tells decks apart, no more.
+std::string deck_hash(const ReadScene& read);
+
 /// Wall clock, s.
 double seconds_since(std::chrono::steady_clock::time_point t);
 

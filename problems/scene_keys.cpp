@@ -226,6 +226,7 @@ std::string reference() {
                               &cylinder(2),
                               &revolved(2),
                               &half_space(2),
+                              &mesh(),
                               &mesh_axis(),
                               &boundary(),
                               &motion(),

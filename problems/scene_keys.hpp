@@ -14,6 +14,7 @@ const SectionSpec& sphere(std::size_t dim);
 const SectionSpec& cylinder(std::size_t dim);
 const SectionSpec& revolved(std::size_t dim);
 const SectionSpec& half_space(std::size_t dim);
+const SectionSpec& mesh();
 const SectionSpec& mesh_axis();
 const SectionSpec& boundary();
 const SectionSpec& motion();

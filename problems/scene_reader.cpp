@@ -31,14 +31,92 @@ void read_ambient(Deck& deck, DeckNode& node, SceneSpec& scene) {
 
 void read_motion(Deck& deck, DeckNode& node, Motion& motion) {
   const Section in = read_section(deck, node, scene_keys::motion());
-  if (in.choice("policy") > 1) {
+  if (in.text("policy") == "relax") {
     deck.fail(*in.node("policy"),
               fmt::format("\"{}\" is not available yet", in.text("policy")),
-              "lagrangian or eulerian");
+              "lagrangian, eulerian or follow");
     return;
   }
   motion.policy = static_cast<MotionPolicy>(in.choice("policy"));
   motion.remap_every = in.integer("remap_every");
+}
+
+int body_called(const SceneSpec& scene, const std::string& name) {
+  const auto at = std::find_if(
+      scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
+  return at == scene.bodies.end() ? -1 : static_cast<int>(at - scene.bodies.begin());
+}
+
+/// Bodies by name, as indices; unknown names are reported.
+std::vector<int> listed_bodies(Deck& deck, DeckNode& list, const SceneSpec& scene) {
+  std::vector<int> bodies;
+  std::vector<std::string> names;
+  for (const Body& b : scene.bodies) {
+    names.push_back(b.name);
+  }
+  for (DeckNode& item : list.items) {
+    const int body = body_called(scene, item.text);
+    if (body < 0) {
+      const std::string meant = nearest(item.text, names);
+      deck.fail(item,
+                fmt::format("no body is called \"{}\"{}",
+                            item.text,
+                            meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)),
+                one_of(names));
+      continue;
+    }
+    bodies.push_back(body);
+  }
+  return bodies;
+}
+
+/// What a following mesh goes with, once there are bodies; its outer sides along that way must let matter through.
+void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene) {
+  Section in(node, scene_keys::motion());
+  const std::vector<std::string> names = axis_names(scene.geometry);
+  if (scene.motion.policy != MotionPolicy::follow) {
+    for (const char* key : {"bodies", "axes"}) {
+      if (in.has(key)) {
+        deck.fail_key(*in.node(key), "only with `policy = \"follow\"`");
+      }
+    }
+    return;
+  }
+  if (!in.has("bodies") || in.node("bodies")->items.empty()) {
+    deck.fail({node.place, node.key + ".bodies", "missing; a mesh that follows needs bodies to go with", {}});
+    return;
+  }
+  Motion& m = scene.motion;
+  for (const int body : listed_bodies(deck, *in.node("bodies"), scene)) {
+    const Body& b = scene.bodies[static_cast<std::size_t>(body)];
+    if (b.material < 0) {
+      deck.fail(*in.node("bodies"), fmt::format("\"{}\" is a hole", b.name), "bodies of a material");
+      continue;
+    }
+    if (std::find(m.leaders.begin(), m.leaders.end(), b.material) == m.leaders.end()) {
+      m.leaders.push_back(b.material);
+    }
+    for (std::size_t d = 0; d < names.size(); ++d) {
+      m.axes[d] = m.axes[d] || (!in.has("axes") && b.velocity[d] != 0);
+    }
+  }
+  for (const std::string& axis : in.texts("axes")) {
+    const auto at = std::find(names.begin(), names.end(), axis);
+    if (at == names.end()) {
+      deck.fail(*in.node("axes"), fmt::format("no axis {} in a {} scene", axis, name_of(scene.geometry)), one_of(names));
+      continue;
+    }
+    m.axes[static_cast<std::size_t>(at - names.begin())] = true;
+  }
+  for (std::size_t d = 0; d < names.size(); ++d) {
+    const bool free = scene.boundaries[d][0].kind == BoundaryKind::free && scene.boundaries[d][1].kind == BoundaryKind::free;
+    if (m.axes[d] && (!free || (scene.geometry == Geometry::axisymmetric && d == 0))) {
+      deck.fail({node.place, node.key + ".axes", fmt::format("the mesh would go along {}, where its sides are not free", names[d]), "free sides along the way"});
+    }
+  }
+  if (std::none_of(m.axes.begin(), m.axes.end(), [](bool moves) { return moves; })) {
+    deck.fail({node.place, node.key + ".axes", "no way to go: none of the bodies has a velocity", "axes, or bodies that move"});
+  }
 }
 
 /// A list of materials in use, each once, as indices into them.
@@ -157,30 +235,10 @@ void read_output(Deck& deck, DeckNode& node, Output& output) {
   output.checkpoint_every = in.number("checkpoint_every", output.checkpoint_every);
 }
 
-int body_called(const SceneSpec& scene, const std::string& name) {
-  const auto at = std::find_if(
-      scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
-  return at == scene.bodies.end() ? -1 : static_cast<int>(at - scene.bodies.begin());
-}
-
 void read_bullet(Deck& deck, DeckNode& list, SceneSpec& scene) {
-  std::vector<std::string> names;
-  for (const Body& b : scene.bodies) {
-    names.push_back(b.name);
-  }
-  for (DeckNode& item : list.items) {
-    const int body = body_called(scene, item.text);
-    if (body < 0) {
-      const std::string meant = nearest(item.text, names);
-      deck.fail(item,
-                fmt::format("no body is called \"{}\"{}",
-                            item.text,
-                            meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)),
-                one_of(names));
-      continue;
-    }
-    scene.results.bullet.push_back(body);
-    scene.results.bullet_names.push_back(item.text);
+  scene.results.bullet = listed_bodies(deck, list, scene);
+  for (const int body : scene.results.bullet) {
+    scene.results.bullet_names.push_back(scene.bodies[static_cast<std::size_t>(body)].name);
   }
 }
 
@@ -290,6 +348,9 @@ SceneSpec read_scene(Deck& deck) {
     read_bodies(deck, top.node("body"), book, scene);
     read_background(deck, top, book, scene);
     scene.materials = book.used();
+    if (DeckNode* motion = usable(root, "motion")) {
+      read_follow(deck, *motion, scene);
+    }
     read_gauges(deck, top.node("gauge"), scene);
     if (DeckNode* results = top.node("results")) {
       read_results(deck, *results, scene);

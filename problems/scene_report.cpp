@@ -124,12 +124,22 @@ std::string numerics_line(const SceneSpec& scene) {
       scene.motion.policy == MotionPolicy::lagrangian
           ? "never remapped"
           : fmt::format("remapped every {} step(s)", scene.motion.remap_every);
+  std::string goes;
+  if (scene.motion.policy == MotionPolicy::follow) {
+    const std::vector<std::string> names = axis_names(scene.geometry);
+    for (const int m : scene.motion.leaders) {
+      goes += (goes.empty() ? ", the mesh goes with " : " ") + scene.materials[static_cast<std::size_t>(m)].name;
+    }
+    for (std::size_t d = 0; d < names.size(); ++d) {
+      goes += scene.motion.axes[d] ? " along " + names[d] : "";
+    }
+  }
   std::string slides;
   for (const int m : scene.sliding) {
     slides += (slides.empty() ? ", slides: " : " ") + scene.materials[static_cast<std::size_t>(m)].name;
   }
   return fmt::format("numerics: {}, cfl {:g}, closure {}, normals {}{}\n",
-                     motion,
+                     motion + goes,
                      scene.numerics.cfl,
                      closures[static_cast<int>(scene.numerics.closure)],
                      normals[static_cast<int>(scene.numerics.normal)],

@@ -1,0 +1,12 @@
+// Pictures of a study: error against cost with the Pareto front, error and cost against what was varied.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+
+namespace ballast::post {
+
+/// Reads study.json in `folder`, draws into folder/pictures, names every picture in `log`. Returns their number. Throws Error.
+int draw_study(const std::filesystem::path& folder, std::ostream& log);
+
+} // namespace ballast::post

@@ -1,0 +1,106 @@
+// What a run of a study left behind, and how far it is from another.
+#include "problems/study.hpp"
+
+#include "core/io/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace ballast {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void flatten(const nlohmann::json& node, const std::string& path, std::map<std::string, double>& out) {
+  if (node.is_object()) {
+    for (const auto& [key, value] : node.items()) {
+      flatten(value, path.empty() ? key : path + "." + key, out);
+    }
+  } else if (node.is_number()) {
+    out[path] = node.get<double>();
+  }
+}
+
+/// Linear between samples; `at` within the range of `x`.
+double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  const auto above = std::upper_bound(x.begin(), x.end(), at);
+  if (above == x.begin() || above == x.end()) {
+    return above == x.end() ? y.back() : y.front();
+  }
+  const auto i = static_cast<std::size_t>(above - x.begin());
+  const double part = (at - x[i - 1]) / (x[i] - x[i - 1]);
+  return y[i - 1] + part * (y[i] - y[i - 1]);
+}
+
+/// Columns that say how the scene went, not how the run did.
+bool of_the_scene(const std::string& column) {
+  return column != "t" && column.rfind("dt", 0) != 0 && column.rfind("energy_", 0) != 0 && column.rfind("momentum", 0) != 0;
+}
+
+} // namespace
+
+StudyRow read_study_row(const fs::path& folder) {
+  StudyRow row;
+  std::ifstream in(folder / "summary.json"), cost(folder / "study.json");
+  const auto j = nlohmann::json::parse(in, nullptr, false), c = nlohmann::json::parse(cost, nullptr, false);
+  if (j.is_discarded()) {
+    return row;
+  }
+  row.ended = j.value("ended", "");
+  row.message = j.value("message", "");
+  row.wall = j.value("wall_seconds", 0.0);
+  row.cells = j.value("cells", 0.0);
+  row.steps = j.value("steps", 0.0);
+  row.rate = j.value("cell_steps_per_second", 0.0);
+  if (!c.is_discarded()) {
+    row.cpu = c.value("cpu_seconds", 0.0);
+    row.peak_memory = c.value("peak_memory_bytes", 0.0);
+  }
+  flatten(j.value("results", nlohmann::json::object()), "", row.results);
+  flatten(j.value("conservation_errors", nlohmann::json::object()), "conservation", row.results);
+  return row;
+}
+
+void measure_errors(StudyRow& row, const fs::path& folder, const StudyRow& reference, const fs::path& reference_folder) {
+  if (row.ended != "finished") {
+    return;
+  }
+  for (const auto& [name, value] : row.results) {
+    const auto exact = reference.results.find(name);
+    if (exact != reference.results.end() && exact->second != 0 && name.rfind("conservation", 0) != 0) {
+      row.errors[name] = std::abs(value - exact->second) / std::abs(exact->second);
+    }
+  }
+  const io::Table mine = io::read_csv(folder / "history.csv"), theirs = io::read_csv(reference_folder / "history.csv");
+  const std::vector<double>&t = mine.columns[0], &t_ref = theirs.columns[0];
+  for (std::size_t c = 1; c < mine.names.size(); ++c) {
+    const std::string name = io::split_column_name(mine.names[c]).name;
+    const std::vector<double>* exact = theirs.find(mine.names[c]);
+    if (!of_the_scene(name) || exact == nullptr || t_ref.size() < 2) {
+      continue;
+    }
+    double sum = 0, most = 0, scale = 0, weight = 0;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      if (t[i] < t_ref.front() || t[i] > t_ref.back() * (1 + 1e-12)) {
+        continue;
+      }
+      const double want = interpolate(t_ref, *exact, t[i]), off = std::abs(mine.columns[c][i] - want);
+      const double span = 0.5 * (t[std::min(i + 1, t.size() - 1)] - t[i > 0 ? i - 1 : 0]);
+      if (std::isfinite(off)) {
+        sum += span * off;
+        weight += span;
+        most = std::max(most, off);
+        scale = std::max(scale, std::abs(want));
+      }
+    }
+    if (weight > 0 && scale > 0) {
+      row.errors["L1 " + name] = sum / weight / scale;
+      row.errors["Linf " + name] = most / scale;
+    }
+  }
+}
+
+} // namespace ballast

@@ -1,0 +1,234 @@
+// Runs the points of a study as child processes.
+#include "problems/study.hpp"
+
+#include "core/error.hpp"
+#include "core/io/summary.hpp"
+#include "problems/run_session.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace ballast {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+volatile std::sig_atomic_t stop_asked = 0;
+void on_stop(int) { stop_asked = 1; }
+
+struct Job {
+  StudyPoint point;
+  std::string deck;
+};
+
+/// What a point's folder says of an earlier run of the same deck.
+enum class Left { nothing, done, part };
+Left left_by_earlier(const fs::path& folder, const std::string& hash) {
+  std::ifstream in(folder / "summary.json");
+  const auto j = nlohmann::json::parse(in, nullptr, false);
+  if (j.is_discarded() || j.value("deck_hash", "") != hash || !fs::exists(folder / "study.json")) {
+    return Left::nothing;
+  }
+  const std::string ended = j.value("ended", "");
+  if (ended == "interrupted" && fs::exists(folder / "checkpoint.h5")) {
+    return Left::part;
+  }
+  return ended == "finished" || ended == "failed" ? Left::done : Left::nothing;
+}
+
+/// Processor time of the runs so far of a point (s), and what they had of memory (byte).
+struct Cost {
+  double cpu = 0, peak_memory = 0;
+};
+Cost cost_of(const fs::path& folder) {
+  std::ifstream in(folder / "study.json");
+  const auto j = nlohmann::json::parse(in, nullptr, false);
+  return j.is_discarded() ? Cost{} : Cost{j.value("cpu_seconds", 0.0), j.value("peak_memory_bytes", 0.0)};
+}
+void write_cost(const fs::path& folder, const Cost& cost) {
+  const nlohmann::ordered_json j = {{"cpu_seconds", cost.cpu}, {"peak_memory_bytes", cost.peak_memory}};
+  io::write_text_atomically(folder / "study.json", j.dump(2) + "\n");
+}
+
+double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+
+/// This program again, as `run`; its output goes to run.log in the folder.
+pid_t start(const Job& job, const fs::path& folder, int threads, bool restart) {
+  std::vector<std::string> words = {"ballast", "run", job.deck, "--out", folder.string(), "--threads", std::to_string(threads)};
+  for (const std::string& setting : job.point.settings) {
+    words.insert(words.end(), {"--set", setting});
+  }
+  if (restart) {
+    words.insert(words.end(), {"--restart", (folder / "checkpoint.h5").string()});
+  }
+  std::vector<char*> argv;
+  for (std::string& w : words) {
+    argv.push_back(w.data());
+  }
+  argv.push_back(nullptr);
+  const std::string log = (folder / "run.log").string();
+  const pid_t child = fork();
+  if (child == 0) {
+    const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (out >= 0) {
+      dup2(out, STDOUT_FILENO);
+      dup2(out, STDERR_FILENO);
+    }
+    execv("/proc/self/exe", argv.data());
+    _exit(127);
+  }
+  if (child < 0) {
+    throw Error("study: no new process could be started");
+  }
+  return child;
+}
+
+class Runner {
+public:
+  Runner(const fs::path& folder, int jobs, int threads) : folder_(folder), jobs_(jobs), threads_(threads) {}
+
+  /// False: interrupted.
+  bool run(const std::vector<Job>& all) {
+    start_ = std::chrono::steady_clock::now();
+    std::size_t next = 0;
+    while ((next < all.size() && stop_asked == 0) || !running_.empty()) {
+      while (next < all.size() && stop_asked == 0 && static_cast<int>(running_.size()) < jobs_) {
+        begin(all, next++);
+      }
+      if (!running_.empty()) {
+        wait_for_one(all);
+      }
+    }
+    return stop_asked == 0;
+  }
+
+private:
+  void begin(const std::vector<Job>& all, std::size_t index) {
+    const StudyPoint& p = all[index].point;
+    const fs::path folder = folder_ / p.name;
+    const Left left = left_by_earlier(folder, p.hash);
+    if (left == Left::done) {
+      ++done_;
+      report(all, index, "kept from an earlier run");
+      return;
+    }
+    fs::create_directories(folder);
+    const Cost before = left == Left::part ? cost_of(folder) : Cost{};
+    write_cost(folder, before);
+    running_[start(all[index], folder, threads_, left == Left::part)] = {index, before};
+  }
+
+  void wait_for_one(const std::vector<Job>& all) {
+    int status = 0;
+    rusage used{};
+    const pid_t child = wait4(-1, &status, 0, &used);
+    if (child < 0) { // a signal: hand it on, the runs write their checkpoints and end
+      for (const auto& [pid, what] : running_) {
+        kill(pid, SIGTERM);
+      }
+      return;
+    }
+    const auto at = running_.find(child);
+    if (at == running_.end()) {
+      return;
+    }
+    const auto [index, before] = at->second;
+    running_.erase(at);
+    const fs::path folder = folder_ / all[index].point.name;
+    write_cost(folder, {before.cpu + seconds(used.ru_utime) + seconds(used.ru_stime),
+                        std::max(before.peak_memory, 1024.0 * static_cast<double>(used.ru_maxrss))});
+    ++done_;
+    ++ran_;
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    report(all, index, code == 0 ? "finished" : code == 3 ? "stopped by a numerical failure" : code == 130 ? "interrupted"
+           : fmt::format("ended with status {} (see {})", WIFEXITED(status) ? code : 128 + WTERMSIG(status), (folder / "run.log").string()));
+  }
+
+  void report(const std::vector<Job>& all, std::size_t index, const std::string& what) {
+    const double wall = seconds_since(start_);
+    const std::size_t left = all.size() - done_;
+    const std::string eta = ran_ > 0 && left > 0 ? fmt::format(", about {:.0f} s left", wall / static_cast<double>(ran_) * static_cast<double>(left)) : "";
+    fmt::print("[{}/{}] {}: {}  {:.0f} s{}\n", done_, all.size(), all[index].point.name, what, wall, eta);
+    std::fflush(stdout);
+  }
+
+  struct Running {
+    std::size_t index;
+    Cost before;
+  };
+  fs::path folder_;
+  int jobs_, threads_;
+  std::map<pid_t, Running> running_;
+  std::size_t done_ = 0, ran_ = 0;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// The row others are measured by: of those that finished the one with most cells; of equals the last.
+std::optional<std::size_t> finest(const std::vector<StudyRow>& rows) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].ended == "finished" && (!best || rows[i].cells >= rows[*best].cells)) {
+      best = i;
+    }
+  }
+  return best;
+}
+
+} // namespace
+
+int study_command(const StudyOptions& options, std::string& out) {
+  std::vector<Variation> variations;
+  for (const std::string& text : options.vary) {
+    variations.push_back(parse_variation(text));
+  }
+  std::vector<Job> jobs;
+  for (StudyPoint& point : study_points(variations, options.settings)) {
+    point.hash = deck_hash(read_scene(options.deck, point.settings)); // every deck is sound before the first run
+    jobs.push_back({std::move(point), options.deck});
+  }
+  const bool by_deck = options.reference != "finest";
+  if (by_deck) {
+    StudyPoint reference{"reference", {}, {}, deck_hash(read_scene(options.reference))};
+    jobs.push_back({std::move(reference), options.reference});
+  }
+  const fs::path folder = options.out.empty() ? fs::path("studies") / fs::path(options.deck).stem() : fs::path(options.out);
+  out = folder.string();
+  const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = options.threads > 0 ? options.threads : std::max(1, machine / options.jobs);
+  fmt::print("{} runs in {}, {} at once, {} thread{} each\n", jobs.size(), out, options.jobs, threads, threads == 1 ? "" : "s");
+  std::fflush(stdout);
+  struct sigaction action{};
+  action.sa_handler = on_stop; // without SA_RESTART: a wait ends
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  const bool finished = Runner(folder, options.jobs, threads).run(jobs);
+  std::vector<StudyRow> rows;
+  for (const Job& job : jobs) {
+    const fs::path at = folder / job.point.name;
+    rows.push_back(left_by_earlier(at, job.point.hash) == Left::done ? read_study_row(at) : StudyRow{});
+    rows.back().name = job.point.name;
+    rows.back().values = job.point.values;
+  }
+  const std::optional<std::size_t> reference = by_deck ? std::optional(rows.size() - 1) : finest(rows);
+  if (reference && rows[*reference].ended == "finished") {
+    for (StudyRow& row : rows) {
+      if (row.name != rows[*reference].name) {
+        measure_errors(row, folder / row.name, rows[*reference], folder / rows[*reference].name);
+      }
+    }
+  }
+  write_study(folder, options, variations, rows, reference ? rows[*reference].name : "");
+  return static_cast<int>(finished ? ExitStatus::finished : ExitStatus::interrupted);
+}
+
+} // namespace ballast
