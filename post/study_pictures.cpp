@@ -33,6 +33,11 @@ struct Study {
   std::vector<Run> runs;                        // the finished ones
 };
 
+std::string unquoted(std::string text) {
+  std::erase(text, '"');
+  return text;
+}
+
 Study read_study(const std::filesystem::path& folder) {
   std::ifstream in(folder / "study.json");
   const auto j = nlohmann::json::parse(in, nullptr, false);
@@ -49,7 +54,7 @@ Study read_study(const std::filesystem::path& folder) {
     if (r.value("ended", "") != "finished" || run.values.size() != s.varied.size())
       continue;
     for (const std::string& value : run.values)
-      run.label += (run.label.empty() ? "" : ", ") + value;
+      run.label += (run.label.empty() ? "" : ", ") + unquoted(value);
     for (const auto& [name, error] : r["errors"].items())
       if (error.is_number())
         run.errors[name] = error.get<double>();
@@ -193,7 +198,7 @@ void draw_varied(const Study& study, std::size_t key, const std::string& measure
   for (const Run& run : study.runs) {
     std::string others;
     for (std::size_t v = 0; v < run.values.size(); ++v)
-      others += v == key ? "" : (others.empty() ? "" : ", ") + run.values[v];
+      others += v == key ? "" : (others.empty() ? "" : ", ") + unquoted(run.values[v]);
     const auto place = static_cast<std::size_t>(std::find(values.begin(), values.end(), run.values[key]) - values.begin());
     lines[others].emplace_back(numbers ? std::log10(at[place]) : at[place], &run);
     const auto found = run.errors.find(measure);
@@ -212,7 +217,7 @@ void draw_varied(const Study& study, std::size_t key, const std::string& measure
   } else {
     x = {-0.3, static_cast<double>(values.size()) - 0.7, {}};
     for (std::size_t k = 0; k < values.size(); ++k)
-      x.ticks.emplace_back(static_cast<double>(k), values[k]);
+      x.ticks.emplace_back(static_cast<double>(k), unquoted(values[k]));
   }
   double widest = 60;
   for (const auto& [name, runs] : lines)

@@ -87,6 +87,7 @@ void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene) {
     return;
   }
   Motion& m = scene.motion;
+  const std::size_t errors_before = deck.errors().size();
   for (const int body : listed_bodies(deck, *in.node("bodies"), scene)) {
     const Body& b = scene.bodies[static_cast<std::size_t>(body)];
     if (b.material < 0) {
@@ -114,7 +115,7 @@ void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene) {
       deck.fail({node.place, node.key + ".axes", fmt::format("the mesh would go along {}, where its sides are not free", names[d]), "free sides along the way"});
     }
   }
-  if (std::none_of(m.axes.begin(), m.axes.end(), [](bool moves) { return moves; })) {
+  if (deck.errors().size() == errors_before && std::none_of(m.axes.begin(), m.axes.end(), [](bool moves) { return moves; })) {
     deck.fail({node.place, node.key + ".axes", "no way to go: none of the bodies has a velocity", "axes, or bodies that move"});
   }
 }

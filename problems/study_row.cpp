@@ -35,6 +35,21 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   return y[i - 1] + part * (y[i] - y[i - 1]);
 }
 
+/// Largest size by unit, of what has one: what is nothing beside others of its kind has no relative error.
+using Largest = std::map<std::string, double>;
+constexpr double nothing = 1e-9;
+
+void note(Largest& largest, const std::string& unit, double value) {
+  double& most = largest[unit];
+  most = std::max(most, std::abs(value));
+}
+
+/// "bullet.velocity_m_per_s" -> "m_per_s": what follows the last word; results of one unit end alike.
+std::string unit_of_result(const std::string& name) {
+  const std::size_t per = name.rfind("_per_"), at = name.rfind('_', per == std::string::npos ? std::string::npos : per - 1);
+  return at == std::string::npos ? name : name.substr(at + 1);
+}
+
 /// Columns that say how the scene went, not how the run did.
 bool of_the_scene(const std::string& column) {
   return column != "t" && column.rfind("dt", 0) != 0 && column.rfind("energy_", 0) != 0 && column.rfind("momentum", 0) != 0;
@@ -68,14 +83,23 @@ void measure_errors(StudyRow& row, const fs::path& folder, const StudyRow& refer
   if (row.ended != "finished") {
     return;
   }
+  Largest of_results, of_columns;
+  for (const auto& [name, value] : reference.results) {
+    note(of_results, unit_of_result(name), value);
+  }
   for (const auto& [name, value] : row.results) {
     const auto exact = reference.results.find(name);
-    if (exact != reference.results.end() && exact->second != 0 && name.rfind("conservation", 0) != 0) {
+    if (exact != reference.results.end() && std::abs(exact->second) > nothing * of_results[unit_of_result(name)] && name.rfind("conservation", 0) != 0) {
       row.errors[name] = std::abs(value - exact->second) / std::abs(exact->second);
     }
   }
   const io::Table mine = io::read_csv(folder / "history.csv"), theirs = io::read_csv(reference_folder / "history.csv");
   const std::vector<double>&t = mine.columns[0], &t_ref = theirs.columns[0];
+  for (std::size_t c = 1; c < theirs.names.size(); ++c) {
+    for (const double x : theirs.columns[c]) {
+      note(of_columns, io::split_column_name(theirs.names[c]).unit, std::isfinite(x) ? x : 0);
+    }
+  }
   for (std::size_t c = 1; c < mine.names.size(); ++c) {
     const std::string name = io::split_column_name(mine.names[c]).name;
     const std::vector<double>* exact = theirs.find(mine.names[c]);
@@ -96,7 +120,7 @@ void measure_errors(StudyRow& row, const fs::path& folder, const StudyRow& refer
         scale = std::max(scale, std::abs(want));
       }
     }
-    if (weight > 0 && scale > 0) {
+    if (weight > 0 && scale > nothing * of_columns[io::split_column_name(mine.names[c]).unit]) {
       row.errors["L1 " + name] = sum / weight / scale;
       row.errors["Linf " + name] = most / scale;
     }

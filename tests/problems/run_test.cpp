@@ -170,7 +170,12 @@ template <int Dim> void same_bits(const std::string& text) {
   }
 }
 
+std::string following(std::string deck) {
+  return deck + "[motion]\npolicy = \"follow\"\nbodies = [\"ball\"]\n";
+}
+
 TEST(Run, SameBitsForAnyNumberOfThreads) {
+  same_bits<2>(following(deck_of(sliding(lead_in_void))));
   same_bits<2>(deck_of(lead_in_void));
   same_bits<2>(open_deck);
   same_bits<3>(deck_3d);
@@ -205,6 +210,7 @@ template <int Dim> void restarts(const SceneSpec& spec) {
 }
 
 TEST(Run, RestartGoesOnBitForBit) {
+  restarts<2>(scene_of(following(deck_of(sliding(lead_in_void)))));
   restarts<2>(scene_of(deck_of(lead_in_void)));
   restarts<2>(scene_of(deck_of(sliding(lead_in_void))));
   SceneSpec every_other = scene_of(deck_3d); // between remaps positions and volumes are not the target mesh's

@@ -1,0 +1,131 @@
+// Laws of a mesh that follows: it goes where its bodies go, of them nothing is remapped, what it passes is carried through
+// and accounted for.
+#include "ale/phases.hpp"
+#include "problems/build_scene.hpp"
+#include "problems/scene_reader.hpp"
+#include "tests/observers.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace ballast {
+namespace {
+
+SceneSpec scene_of(const std::string& text, const std::string& motion) {
+  Deck d = Deck::parse(text + motion, "test.toml", {});
+  SceneSpec s = read_scene(d);
+  d.throw_if_errors();
+  return s;
+}
+
+constexpr const char* follows = R"(
+[motion]
+policy = "follow"
+bodies = ["ball"]
+)";
+
+// A ball in a void, away from everything.
+constexpr const char* alone = R"(
+title = "ball in a void"
+geometry = "axisymmetric"
+end_time = "40 us"
+ambient = { pressure = "0 Pa" }
+[[body]]
+name = "ball"
+material = "copper_ofhc"
+shape = { sphere = { centre = ["0 mm", "0 mm"], radius = "3.1 mm" } }
+velocity = ["0 m/s", "500 m/s"]
+[mesh]
+r = { from = "0 mm", to = "5 mm", size = "0.5 mm" }
+z = { from = "-5 mm", to = "5 mm", size = "0.5 mm" }
+)";
+
+TEST(Follow, ABallFliesWithItsMeshUnchanged) {
+  const SceneSpec spec = scene_of(alone, follows);
+  Scene<2> scene = build_scene<2>(spec, 1);
+  const Block<2>& b = scene.blocks[0];
+  std::vector<double> before;
+  for (int j = 0; j < b.grid.cells[1]; ++j) {
+    const double* f = b.materials[0].store.row(field::fraction, b.grid.cell_row(j, 0));
+    before.insert(before.end(), f, f + b.grid.cells[0]);
+  }
+  Clock clock;
+  clock.end_time = spec.end_time;
+  EXPECT_TRUE(run(scene, clock));
+  EXPECT_GT(clock.step, 100);
+  EXPECT_NEAR(b.position[1].row(b.grid.node_row(0, 0))[0], -5e-3 + 500 * 40e-6, 1e-12);
+  EXPECT_NEAR(centre_of_mass(b, {0})[1], 500 * 40e-6, 1e-12);
+  std::size_t q = 0;
+  for (int j = 0; j < b.grid.cells[1]; ++j) {
+    const double* f = b.materials[0].store.row(field::fraction, b.grid.cell_row(j, 0));
+    for (int i = 0; i < b.grid.cells[0]; ++i) {
+      EXPECT_NEAR(f[i], before[q++], 1e-9); // four cells on a fixed mesh: 1e-2
+    }
+  }
+}
+
+// The same ball through air that stands: the air enters before it and leaves behind it through the mesh's sides.
+TEST(Follow, WhatFlowsThroughIsAccountedFor) {
+  std::string text = alone;
+  text.insert(text.find("[[body]]"), "background = \"air\"\n");
+  text.replace(text.find("ambient"), text.find('\n', text.find("ambient")) - text.find("ambient"), "ambient = { pressure = \"1 atm\" }");
+  for (const int every : {1, 3}) {
+    SceneSpec spec = scene_of(text, follows);
+    spec.motion.remap_every = every;
+    Scene<2> scene = build_scene<2>(spec, 1);
+    const Totals start = totals(scene.blocks[0]);
+    Clock clock;
+    clock.end_time = spec.end_time;
+    EXPECT_TRUE(run(scene, clock));
+    const Totals end = totals(scene.blocks[0]);
+    const Ledger& l = scene.ledger;
+    EXPECT_NE(l.mass_out[1], 0);
+    for (std::size_t m = 0; m < 2; ++m) {
+      EXPECT_NEAR((end.mass[m] + l.mass_out[m]) / start.mass[m], 1, 1e-12);
+    }
+    const double known = l.boundary_work + l.ambient_work + l.void_work - l.remap_kinetic_loss - l.energy_out - l.sliver_energy;
+    EXPECT_NEAR(end.internal() + end.kinetic_energy, start.internal() + start.kinetic_energy + known, 1e-12 * start.kinetic_energy);
+    EXPECT_NEAR(centre_of_mass(scene.blocks[0], {0})[1], 500 * 40e-6, 0.02 * 500 * 40e-6);
+  }
+}
+
+// Galileo: a ball into water on a mesh that goes with it, and water on to a ball at rest.
+TEST(Follow, IsTheSameAsTheBodysFrame) {
+  const auto deck = [](const char* ball, const char* water) {
+    return std::string(R"(
+title = "ball into water"
+geometry = "axisymmetric"
+end_time = "8 us"
+ambient = { pressure = "0 Pa" }
+[[body]]
+name = "water"
+material = "water"
+shape = { box = { from = ["0 mm", "4 mm"], to = ["9 mm", "12 mm"] } }
+velocity = ["0 m/s", ")") + water + R"("]
+[[body]]
+name = "ball"
+material = "lead"
+shape = { sphere = { centre = ["0 mm", "0 mm"], radius = "3.1 mm" } }
+velocity = ["0 m/s", ")" + ball + R"("]
+[mesh]
+r = { from = "0 mm", to = "9 mm", size = "0.5 mm" }
+z = { from = "-9 mm", to = "13 mm", size = "0.5 mm" }
+)";
+  };
+  const auto end_of = [](const SceneSpec& spec) {
+    Scene<2> scene = build_scene<2>(spec, 1);
+    Clock clock;
+    clock.end_time = spec.end_time;
+    EXPECT_TRUE(run(scene, clock));
+    EXPECT_GT(clock.step, 30);
+    return std::array<double, 2>{centre_of_mass(scene.blocks[0], {1})[1], totals(scene.blocks[0]).internal()};
+  };
+  const auto moving = end_of(scene_of(deck("600 m/s", "0 m/s"), follows)), resting = end_of(scene_of(deck("0 m/s", "-600 m/s"), ""));
+  const double lag = 600 * 8e-6 - moving[0];
+  EXPECT_GT(lag, 1e-5);
+  EXPECT_NEAR(lag, -resting[0], 0.02 * lag); // the mesh slows down with the ball, the frame does not
+  EXPECT_NEAR(moving[1], resting[1], 0.01 * resting[1]);
+}
+
+} // namespace
+} // namespace ballast
