@@ -1,4 +1,5 @@
 // The Lagrangian step: predict, corner forces, accelerate, move, then work, closure, strength, state.
+#include "ale/absorbing.hpp"
 #include "ale/lagrange_parts.hpp"
 #include "ale/outflow.hpp"
 #include "ale/phases.hpp"
@@ -76,12 +77,6 @@ void gather(CornerSlab<Dim>& below, CornerSlab<Dim>& here, int q, int nodes, dou
     add(below.row(q - 1), 7, 6);
   }
 }
-
-/// What boundaries did in a step: J and kg m/s.
-struct BoundaryEffect {
-  double work = 0;
-  std::array<double, 3> impulse = {0, 0, 0};
-};
 
 /// Node velocities of one row from forces; boundary conditions come after, by rows.
 template <int Dim>
@@ -168,6 +163,7 @@ BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
   const Grid& g = b.grid;
   const int planes = g.slabs() + 1;
   const ForceCoefficients c = force_coefficients(scene.numerics, dt);
+  const bool absorbs = b.boundary.any(BoundaryKind::absorbing);
   std::vector<BoundaryEffect> effects(static_cast<std::size_t>(planes));
   parallel_ranges(*scene.pool, planes, [&](int begin, int end, int) {
     CornerSlab<Dim> below(g), here(g);
@@ -188,6 +184,9 @@ BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
         accelerate_row(b, r, dt, nodes, force);
         if (b.any_sliding()) {
           accelerate_apart(b, r, dt, nodes, force);
+        }
+        if (absorbs) {
+          absorb_row(b, j, k, dt, force, effects[static_cast<std::size_t>(plane)]);
         }
         bound_row(b, j, k, dt, force, effects[static_cast<std::size_t>(plane)]);
         for (std::size_t d = 0; d < Dim; ++d) {

@@ -10,8 +10,9 @@ namespace ballast {
 
 /// symmetry: no normal velocity, mirrored ghosts (also the axis r = 0). wall: rigid, frictionless, may
 /// move along its normal. free: no traction beyond the reference pressure. outflow: as if the block went
-/// on unchanged. inflow: the ghosts hold a prescribed state, which remaps sweep in.
-enum class BoundaryKind { symmetry, free, wall, inflow, outflow };
+/// on unchanged. inflow: the ghosts hold a prescribed state, which remaps sweep in. absorbing: more of the same beyond, at rest
+/// and at the reference pressure (ale/absorbing).
+enum class BoundaryKind { symmetry, free, wall, inflow, outflow, absorbing };
 
 /// What stands beyond an inflow side: one material, free of deviator and history.
 struct InflowState {
@@ -44,7 +45,14 @@ struct BoundarySet {
   /// Material may cross (an eulerian block's face there is swept or fed).
   bool open(int axis, int s) const {
     const BoundaryKind k = at(axis, s).kind;
-    return k == BoundaryKind::free || k == BoundaryKind::outflow || k == BoundaryKind::inflow;
+    return k == BoundaryKind::free || k == BoundaryKind::outflow || k == BoundaryKind::inflow || k == BoundaryKind::absorbing;
+  }
+  bool any(BoundaryKind kind) const {
+    bool found = false;
+    for (const auto& axis : side) {
+      found = found || axis[0].kind == kind || axis[1].kind == kind;
+    }
+    return found;
   }
 };
 

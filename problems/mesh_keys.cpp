@@ -52,15 +52,15 @@ const SectionSpec& mesh_axis() {
 const SectionSpec& boundary() {
   static const SectionSpec spec = {
       "Boundaries (`lower`, `upper`)",
-      "A text (`symmetry`, `free`, `wall`, `outflow`) or a table with these keys. `outflow` lets "
+      "A text (`symmetry`, `free`, `wall`, `outflow`, `absorbing`) or a table with these keys. `outflow` lets "
       "material out and waves that arrive head on; what flows back in is the edge cell's. `inflow` "
-      "brings a material in at a fixed state; it needs an eulerian mesh. `absorbing` is not "
-      "available yet.",
+      "brings a material in at a fixed state; it needs a mesh that is remapped. `absorbing` stands for more of the edge "
+      "cell's matter, at rest and at the ambient pressure: it takes waves, in place of far matter.",
       {{.name = "type",
         .kind = choice,
         .doc = "`free` carries the ambient pressure, none where the scene starts with void; `wall` is rigid and frictionless",
         .required = true,
-        .choices = {"symmetry", "free", "wall", "inflow", "outflow"}},
+        .choices = {"symmetry", "free", "wall", "inflow", "outflow", "absorbing"}},
        {.name = "velocity",
         .kind = special,
         .doc = "wall: one velocity along the axis; inflow: one velocity an axis, into the mesh"},

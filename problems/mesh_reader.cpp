@@ -203,12 +203,6 @@ void refuse_keys(Context c,
 
 Boundary read_boundary(Context c, DeckNode& node, std::size_t axis, std::size_t s) {
   Boundary side;
-  if (node.is_text() && node.text == "absorbing") {
-    c.deck.fail(node,
-                "absorbing boundaries are not available yet",
-                "symmetry, free, wall, inflow or outflow");
-    return side;
-  }
   if (node.is_text()) { // a bare word is a table of that type
     DeckNode type = node;
     type.key = node.key;

@@ -110,9 +110,13 @@ void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene) {
     m.axes[static_cast<std::size_t>(at - names.begin())] = true;
   }
   for (std::size_t d = 0; d < names.size(); ++d) {
-    const bool free = scene.boundaries[d][0].kind == BoundaryKind::free && scene.boundaries[d][1].kind == BoundaryKind::free;
+    const auto lets_through = [&](std::size_t side) {
+      const BoundaryKind kind = scene.boundaries[d][side].kind;
+      return kind == BoundaryKind::free || kind == BoundaryKind::absorbing;
+    };
+    const bool free = lets_through(0) && lets_through(1);
     if (m.axes[d] && (!free || (scene.geometry == Geometry::axisymmetric && d == 0))) {
-      deck.fail({node.place, node.key + ".axes", fmt::format("the mesh would go along {}, where its sides are not free", names[d]), "free sides along the way"});
+      deck.fail({node.place, node.key + ".axes", fmt::format("the mesh would go along {}, where its sides are neither free nor absorbing", names[d]), "free or absorbing sides along the way"});
     }
   }
   if (deck.errors().size() == errors_before && std::none_of(m.axes.begin(), m.axes.end(), [](bool moves) { return moves; })) {

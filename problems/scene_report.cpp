@@ -48,6 +48,8 @@ std::string boundary_text(const Boundary& b, const SceneSpec& scene) {
     return b.wall_velocity == 0 ? "wall" : fmt::format("wall at {:g} m/s", b.wall_velocity);
   case BoundaryKind::inflow:
     return fmt::format("inflow of {}", scene.materials[static_cast<std::size_t>(b.material)].name);
+  case BoundaryKind::absorbing:
+    return "absorbing";
   case BoundaryKind::outflow:
     break;
   }
