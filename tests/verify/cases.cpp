@@ -14,6 +14,7 @@ std::vector<VerifyCase> verification_cases() {
   verify::add_piston_cases(cases);
   verify::add_frame_cases(cases);
   verify::add_open_boundary_cases(cases);
+  verify::add_absorbing_cases(cases);
   verify::add_plate_cases(cases);
   verify::add_spall_cases(cases);
   verify::add_gas_metal_cases(cases);

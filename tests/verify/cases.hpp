@@ -15,6 +15,7 @@ void add_rest_cases(std::vector<VerifyCase>& cases);
 void add_piston_cases(std::vector<VerifyCase>& cases);
 void add_frame_cases(std::vector<VerifyCase>& cases);
 void add_open_boundary_cases(std::vector<VerifyCase>& cases);
+void add_absorbing_cases(std::vector<VerifyCase>& cases);
 void add_plate_cases(std::vector<VerifyCase>& cases);
 void add_spall_cases(std::vector<VerifyCase>& cases);
 void add_gas_metal_cases(std::vector<VerifyCase>& cases);
