@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,8 @@ template <int Dim> struct Block {
 
   std::array<RowField, Dim> position, velocity, next_position, next_velocity;
   std::array<RowField, Dim> target; ///< where the next remap brings the nodes
+  /// follow: what the cell lo..hi (m) held at first, if it did not move; beyond the mesh this is still there.
+  std::function<void(const std::array<double, 3>& lo, const std::array<double, 3>& hi, std::vector<remap::Outside>& parts)> outside;
   std::array<RowField, Dim> home;   ///< follow: where target was at first, along the axes that move
   RowField node_mass;
   /// Share of a cell's mass that goes to the lower node of each axis, by cell index + ghost.

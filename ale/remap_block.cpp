@@ -25,6 +25,36 @@ double least_energy(const Material& m) {
   return stiff ? stiff->energy(m.density, 0) : 0.0;
 }
 
+/// Does a following mesh move along this side's axis, so that what lies in its way comes in?
+template <int Dim> bool passes(const Block<Dim>& b, int axis, int side) {
+  return b.motion.policy == MotionPolicy::follow && b.motion.axes[static_cast<std::size_t>(axis)] && b.boundary.open(axis, side);
+}
+
+/// What a ghost cell beyond a fed side holds.
+template <int Dim> void beyond(const Block<Dim>& b, int axis, int side, const std::array<int, 3>& cell, std::vector<remap::Outside>& parts) {
+  const BoundarySide& from = b.boundary.at(axis, side);
+  if (from.kind == BoundaryKind::inflow) {
+    parts.push_back({from.inflow.material, 1, from.inflow.density, from.inflow.specific_energy});
+    return;
+  }
+  if (!passes(b, axis, side) || !b.outside) {
+    parts.push_back({b.void_index()});
+    return;
+  }
+  std::array<double, 3> lo{}, hi{};
+  std::array<int, 3> at = cell;
+  for (int d = 0; d < Dim; ++d) { // at the block's edges as within it
+    const auto a = static_cast<std::size_t>(d);
+    at[a] = d == axis || (at[a] >= 0 && at[a] < b.grid.cells[a]) ? at[a] : mirrored_cell(at[a], b.grid.cells[a]);
+  }
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const int r = b.grid.node_row(at[1], at[2]), up = b.grid.node_row(at[1] + (d == 1 ? 1 : 0), at[2] + (d == 2 ? 1 : 0));
+    lo[d] = b.target[d].row(r)[at[0]];
+    hi[d] = b.target[d].row(up)[at[0] + (d == 0 ? 1 : 0)];
+  }
+  b.outside(lo, hi, parts);
+}
+
 template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
   remap::Mesh<Dim> m{.grid = b.grid,
                      .axisymmetric = b.axisymmetric,
@@ -57,13 +87,13 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
       m.open[a][s] = b.boundary.open(axis, side);
       m.fixed[a][s] = b.boundary.fixes_normal_velocity(axis, side);
       m.fixed_velocity[a][s] = b.boundary.at(axis, side).velocity;
+      const BoundaryKind kind = b.boundary.at(axis, side).kind;
       // Beyond a free side is a vacuum, or the ambient medium: more of what is at the side.
-      m.void_outside[a][s] = b.boundary.at(axis, side).kind == BoundaryKind::free && b.reference_pressure == 0;
-      if (const BoundarySide& from = b.boundary.at(axis, side); from.kind == BoundaryKind::inflow) {
-        m.inflow[a][s] = {from.inflow.material, from.inflow.density, from.inflow.specific_energy};
-      }
+      const bool vacuum = kind == BoundaryKind::free && b.reference_pressure == 0 && m.has_void;
+      m.fed[a][s] = vacuum || kind == BoundaryKind::inflow || passes(b, axis, side);
     }
   }
+  m.outside = [&b](int axis, int side, const std::array<int, 3>& cell, std::vector<remap::Outside>& parts) { beyond(b, axis, side, cell, parts); };
   return m;
 }
 

@@ -64,6 +64,60 @@ void add_momentum(const Block<Dim>& b, int i, int j, int k, double mass, const P
   }
 }
 
+/// What the cell lo..hi holds at the start, by material slot; `each`(material, fraction, density, velocity) hears of every body's part.
+template <class Each>
+void initial_parts(const SceneSpec& spec, const SlotMap& slots, const Point& lo, const Point& hi, std::vector<double>& shares, std::vector<CellPart>& parts, Each&& each) {
+  body_fractions(spec, lo, hi, shares);
+  double left = 1;
+  const auto add = [&](int material, double f, double density, double e, const Point& u) {
+    CellPart& p = parts[static_cast<std::size_t>(material < 0 ? static_cast<int>(parts.size()) - 1 : slots.slot[static_cast<std::size_t>(material)])];
+    const double mass = p.fraction * p.density + f * density;
+    p.specific_energy = mass > 0 ? (p.fraction * p.density * p.specific_energy + f * density * e) / mass : 0;
+    p.fraction += f;
+    p.density = p.fraction > 0 ? mass / p.fraction : 0;
+    if (f == p.fraction) { // the only body of its material here: bitwise its own state
+      p.density = density;
+      p.specific_energy = e;
+    }
+    each(material, f, density, u);
+    left -= f;
+  };
+  for (std::size_t q = 0; q < spec.bodies.size(); ++q) {
+    if (shares[q] > 0) {
+      const Body& body = spec.bodies[q];
+      add(body.material, shares[q], body.density, body.specific_energy, body.velocity);
+    }
+  }
+  if (left > 1e-12) {
+    if (spec.background < 0) {
+      add(-1, left, 0, 0, {});
+    } else {
+      const Material& m = spec.materials[static_cast<std::size_t>(spec.background)];
+      add(spec.background, left, m.density, m.specific_energy, {});
+    }
+  }
+  for (std::size_t m = 0; m < parts.size(); ++m) {
+    parts[m].material = static_cast<int>(m);
+    parts[m].fraction = parts[m].fraction > 1 - 1e-12 ? 1.0 : parts[m].fraction;
+  }
+}
+
+/// What a mesh that follows meets on its way: the initial state of what does not move.
+template <int Dim> void set_outside(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
+  SceneSpec resting = spec;
+  std::erase_if(resting.bodies, [](const Body& body) { return body.velocity != Point{}; });
+  b.outside = [resting = std::move(resting), slots, count = b.materials.size()](const Point& lo, const Point& hi, std::vector<remap::Outside>& out) {
+    std::vector<double> shares(resting.bodies.size());
+    std::vector<CellPart> parts(count);
+    initial_parts(resting, slots, lo, hi, shares, parts, [](int, double, double, const Point&) {});
+    for (const CellPart& p : parts) {
+      if (p.fraction > 0) {
+        out.push_back({p.material, p.fraction, p.density, p.specific_energy});
+      }
+    }
+  };
+}
+
 template <int Dim>
 void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
   constexpr double trace = 1e-9; // of a node's mass: the rounding of the bodies' shares does not slide
@@ -80,44 +134,14 @@ void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
       lo[static_cast<std::size_t>(d)] = line[static_cast<std::size_t>(index[d])];
       hi[static_cast<std::size_t>(d)] = line[static_cast<std::size_t>(index[d] + 1)];
     }
-    body_fractions(spec, lo, hi, shares);
     const double volume = b.volume.row(b.grid.cell_row(j, k))[i];
     std::vector<CellPart> parts(b.materials.size());
-    double left = 1;
-    const auto add = [&](int material, double f, double density, double e, const Point& u) {
-      CellPart& p = parts[static_cast<std::size_t>(material < 0 ? static_cast<int>(b.materials.size()) - 1 : slots.slot[static_cast<std::size_t>(material)])];
-      const double mass = p.fraction * p.density + f * density;
-      p.specific_energy = mass > 0 ? (p.fraction * p.density * p.specific_energy + f * density * e) / mass : 0;
-      p.fraction += f;
-      p.density = p.fraction > 0 ? mass / p.fraction : 0;
-      if (f == p.fraction) { // the only body of its material here: bitwise its own state
-        p.density = density;
-        p.specific_energy = e;
-      }
+    initial_parts(spec, slots, lo, hi, shares, parts, [&](int material, double f, double density, const Point& u) {
       if (material >= 0) {
         const bool slides = b.materials[static_cast<std::size_t>(slots.slot[static_cast<std::size_t>(material)])].slides;
         add_momentum(b, i, j, k, f * density * volume, u, slides ? sliding : nodes);
       }
-      left -= f;
-    };
-    for (std::size_t q = 0; q < spec.bodies.size(); ++q) {
-      if (shares[q] > 0) {
-        const Body& body = spec.bodies[q];
-        add(body.material, shares[q], body.density, body.specific_energy, body.velocity);
-      }
-    }
-    if (left > 1e-12) {
-      if (spec.background < 0) {
-        add(-1, left, 0, 0, {});
-      } else {
-        const Material& m = spec.materials[static_cast<std::size_t>(spec.background)];
-        add(spec.background, left, m.density, m.specific_energy, {});
-      }
-    }
-    for (std::size_t m = 0; m < parts.size(); ++m) {
-      parts[m].material = static_cast<int>(m);
-      parts[m].fraction = parts[m].fraction > 1 - 1e-12 ? 1.0 : parts[m].fraction;
-    }
+    });
     fill_cell<Dim>(b, i, j, k, parts);
   });
   for (std::size_t q = 0; q < nodes.mass.data().size(); ++q) {
@@ -232,6 +256,9 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   }
   allocate_block(b, spec.mesh_lines);
   fill_block(spec, slots, b);
+  if (spec.motion.policy == MotionPolicy::follow) {
+    set_outside(spec, slots, b);
+  }
   if (starts_with_void(b)) {
     release_to_vacuum(b);
   }

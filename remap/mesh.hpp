@@ -44,18 +44,20 @@ inline double node_follows(double sliding_mass, double mass) {
   return follows > 0 ? follows : 0.0;
 }
 
-/// What stands beyond a side that feeds the block: one material, its history zero.
-struct Inflow {
-  int material = -1; ///< -1: the side feeds nothing
-  double density = 0, specific_energy = 0;
+/// A material beyond a side that feeds the block, its history zero; a void has no density.
+struct Outside {
+  int material = -1;
+  double fraction = 1, density = 0, specific_energy = 0; ///< kg/m3, J/kg
 };
+/// What ghost cell (i, j, k) beyond a side holds; the fractions add up to one. Nothing: more of the edge cell.
+using OutsideState = std::function<void(int axis, int side, const std::array<int, 3>& cell, std::vector<Outside>& parts)>;
 
 template <int Dim> struct Mesh {
   const Grid& grid;
   bool axisymmetric = false;
   std::array<std::array<bool, 2>, 3> open{};         ///< sides material may cross
-  std::array<std::array<bool, 2>, 3> void_outside{}; ///< open sides behind which there is void
-  std::array<std::array<Inflow, 2>, 3> inflow{};     ///< sides behind which there is a prescribed state
+  std::array<std::array<bool, 2>, 3> fed{};          ///< open sides behind which there is what `outside` says
+  OutsideState outside = {};                         ///< asked for ghost cells of sides that are fed, by one thread
   /// Sides that prescribe the velocity along their axis, and that velocity (m/s): their nodes keep it, what
   /// momentum the remap brings them goes to the wall.
   std::array<std::array<bool, 2>, 3> fixed{};

@@ -127,46 +127,61 @@ template <int Dim> void follow_presence(Mesh<Dim>& m) {
   }
 }
 
-/// Ghost cells beyond a side hold one material; a void has no density. A material that comes in gets its tiles
-/// at the edge rows as well: there the sweep puts it.
-template <int Dim> void fill_outside(Mesh<Dim>& m, int axis, int side, const Inflow& state) {
+/// Ghost cells beyond a side hold what the mesh says. A material that comes in gets its tiles at the edge rows as well: there the
+/// sweep puts it.
+template <int Dim> void fill_outside(Mesh<Dim>& m, int axis, int side) {
   const Grid& g = m.grid;
   const auto a = static_cast<std::size_t>(axis);
+  std::vector<Outside> parts;
+  const auto row_of = [&](TileStore& store, int field, int r) {
+    if (!store.has_row(r)) {
+      store.allocate(store.tile_of(r));
+    }
+    return store.row(field, r);
+  };
   for (int k = -g.ghost[2]; k < g.cells[2] + g.ghost[2]; ++k) {
     for (int j = -g.ghost[1]; j < g.cells[1] + g.ghost[1]; ++j) {
       const int r = g.cell_row(j, k);
       const int index[3] = {0, j, k};
-      TileStore& what = *m.materials[static_cast<std::size_t>(state.material)];
-      if (axis > 0 && !m.is_void(state.material) && index[axis] == (side == 0 ? 0 : g.cells[a] - 1)) {
-        what.allocate(what.tile_of(r));
-      }
       int first = -g.ghost[0], last = g.cells[0] + g.ghost[0];
       if (axis == 0) {
         first = side == 0 ? -g.ghost[0] : g.cells[0];
         last = side == 0 ? 0 : g.cells[0] + g.ghost[0];
-      } else if (side == 0 ? index[axis] >= 0 : index[axis] < g.cells[a]) {
+      }
+      const bool ghosts = axis == 0 || (side == 0 ? index[axis] < 0 : index[axis] >= g.cells[a]);
+      const bool edge = axis > 0 && index[axis] == (side == 0 ? 0 : g.cells[a] - 1);
+      if (!ghosts && !edge) {
         continue;
       }
-      for (int q = 0; q < m.material_count(); ++q) {
-        TileStore& store = *m.materials[static_cast<std::size_t>(q)];
-        if (!store.has_row(r)) {
-          if (q != state.material) {
-            continue;
+      const double* volume = m.volume.row(r);
+      for (int i = first; i < last; ++i) {
+        parts.clear();
+        std::array<int, 3> cell = {i, j, k};
+        cell[a] = edge ? (side == 0 ? -1 : g.cells[a]) : cell[a];
+        m.outside(axis, side, cell, parts);
+        if (edge) {
+          for (const Outside& p : parts) {
+            if (!m.is_void(p.material)) {
+              row_of(*m.materials[static_cast<std::size_t>(p.material)], 0, r);
+            }
           }
-          store.allocate(store.tile_of(r));
+          continue;
         }
-        for (int field = 0; field < store.conserved(); ++field) {
-          std::fill(store.row(field, r) + first, store.row(field, r) + last, field == 0 && q == state.material ? 1.0 : 0.0);
+        for (TileStore* store : m.materials) {
+          for (int field = 0; field < store->conserved() && store->has_row(r); ++field) {
+            store->row(field, r)[i] = 0;
+          }
         }
+        for (const Outside& p : parts) {
+          TileStore& store = *m.materials[static_cast<std::size_t>(p.material)];
+          row_of(store, 0, r)[i] = p.fraction;
+          if (!m.is_void(p.material)) {
+            store.row(1, r)[i] = p.density * (p.fraction * volume[i]);
+            store.row(2, r)[i] = p.specific_energy;
+          }
+        }
+        m.owner_row(r)[i] = static_cast<std::int8_t>(parts.size() == 1 ? parts[0].material : -1);
       }
-      if (!m.is_void(state.material)) {
-        const double* volume = m.volume.row(r);
-        for (int i = first; i < last; ++i) {
-          what.row(1, r)[i] = state.density * volume[i];
-          what.row(2, r)[i] = state.specific_energy;
-        }
-      }
-      std::fill(m.owner_row(r) + first, m.owner_row(r) + last, static_cast<std::int8_t>(state.material));
     }
   }
 }
@@ -234,11 +249,8 @@ void sweep_all(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long or
     for (int a = 0; a < Dim; ++a) {
       for (int side = 0; side < 2; ++side) {
         const auto ax = static_cast<std::size_t>(a), s = static_cast<std::size_t>(side);
-        if (m.has_void && m.void_outside[ax][s]) {
-          fill_outside(m, a, side, {.material = m.material_count() - 1});
-        }
-        if (m.inflow[ax][s].material >= 0) {
-          fill_outside(m, a, side, m.inflow[ax][s]);
+        if (m.fed[ax][s]) {
+          fill_outside(m, a, side);
         }
       }
     }

@@ -244,9 +244,12 @@ public:
     for (std::size_t axis = 0; axis < Dim; ++axis) {
       for (std::size_t side = 0; side < 2; ++side) {
         m.open[axis][side] = boundary.open(static_cast<int>(axis), static_cast<int>(side));
-        m.void_outside[axis][side] = boundary.side[axis][side].kind == BoundaryKind::free;
+        m.fed[axis][side] = m.has_void && boundary.side[axis][side].kind == BoundaryKind::free;
       }
     }
+    m.outside = [last = static_cast<int>(stores.size()) - 1](int, int, const std::array<int, 3>&, std::vector<Outside>& parts) {
+      parts.push_back({last}); // the void
+    };
     return m;
   }
 
