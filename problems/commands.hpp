@@ -20,7 +20,7 @@ struct RunOptions {
 
 struct VerifyOptions {
   std::vector<std::string> names; ///< empty: all
-  bool hard = false;              ///< the slow cases too
+  bool hard = false;              ///< every case at several CFL numbers, remap intervals and closures
   bool list = false;              ///< only name the cases
   int threads = 0;
 };

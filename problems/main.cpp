@@ -57,7 +57,7 @@ int dispatch(int argc, char** argv) {
     return ballast::verify_command(verify);
   });
   sub->add_option("name", verify.names, "cases; default all");
-  sub->add_flag("--hard", verify.hard, "the slow and hard cases too");
+  sub->add_flag("--hard", verify.hard, "every case at CFL 0.3, 0.5, 0.8, remapped every 1 and 4 steps, with every closure: what ends");
   sub->add_flag("--list", verify.list, "only name the cases");
   sub->add_option("--threads", verify.threads, "threads; default all")->check(CLI::Range(1, 4096));
 

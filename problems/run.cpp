@@ -34,7 +34,7 @@ int verify_command(const VerifyOptions& options) {
     }
     return 0;
   }
-  return run_verification(options.names) == 0 ? 0 : 1;
+  return (options.hard ? run_hard_verification(options.names) : run_verification(options.names)) == 0 ? 0 : 1;
 }
 
 } // namespace ballast

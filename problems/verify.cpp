@@ -28,8 +28,11 @@ void VerifyReport::close(const std::string& q, double want, double relative, dou
 
 void VerifyReport::note(const std::string& q, double got) { rows_.push_back({q, "reported", got, true, false}); }
 
-int run_verification(const std::vector<std::string>& names) {
-  const std::vector<VerifyCase> all = verification_cases();
+namespace {
+
+/// The named cases, all if none is named. Throws Error.
+std::vector<VerifyCase> chosen_cases(const std::vector<std::string>& names) {
+  std::vector<VerifyCase> all = verification_cases();
   for (const std::string& name : names) {
     if (std::none_of(all.begin(), all.end(), [&](const VerifyCase& c) { return c.name == name; })) {
       std::string known;
@@ -39,12 +42,16 @@ int run_verification(const std::vector<std::string>& names) {
       throw Error(fmt::format("no verification case '{}'; there are: {}", name, known));
     }
   }
+  std::erase_if(all, [&](const VerifyCase& c) { return !names.empty() && std::find(names.begin(), names.end(), c.name) == names.end(); });
+  return all;
+}
+
+} // namespace
+
+int run_verification(const std::vector<std::string>& names) {
   int passed = 0, failed = 0;
   fmt::print("{:<46} {:>22} {:>12} {:>8} {:>8}\n", "case: quantity", "asked", "got", "cells", "s");
-  for (const VerifyCase& c : all) {
-    if (!names.empty() && std::find(names.begin(), names.end(), c.name) == names.end()) {
-      continue;
-    }
+  for (const VerifyCase& c : chosen_cases(names)) {
     VerifyReport report;
     const auto start = std::chrono::steady_clock::now();
     try {
@@ -65,6 +72,43 @@ int run_verification(const std::vector<std::string>& names) {
   }
   fmt::print("{} passed, {} failed\n", passed, failed);
   return failed;
+}
+
+int run_hard_verification(const std::vector<std::string>& names) {
+  constexpr double cfls[] = {0.3, 0.5, 0.8};
+  constexpr int every[] = {1, 4};
+  constexpr Closure closures[] = {Closure::pressure_relaxation, Closure::tipton, Closure::equal_strain};
+  const char* const closure_names[] = {"relaxation", "tipton", "equal strain"};
+  int stopped = 0, runs = 0;
+  fmt::print("{:<24} {:>4} {:>5} {:<12} {:>9} {:>8} {:>7} {:>8} {:>12}  {}\n", "case", "cfl", "remap", "closure", "ended", "steps", "floors", "retries",
+             "unaccounted", "stopped by");
+  for (const VerifyCase& c : chosen_cases(names)) {
+    bool remapped = true, mixed = true;
+    for (const double cfl : cfls) {
+      for (const int n : every) {
+        for (const Closure closure : closures) {
+          if ((n != every[0] && !remapped) || (closure != closures[0] && !mixed)) {
+            continue; // the same run again
+          }
+          const TrialOutcome o = run_trial(c, {cfl, n, closure});
+          if (o.runs == 0) {
+            remapped = mixed = false; // no scene is run in it
+            continue;
+          }
+          remapped = o.remapped;
+          mixed = o.mixed;
+          stopped += o.stopped;
+          runs += o.runs;
+          fmt::print("{:<24} {:>4} {:>5} {:<12} {:>9} {:>8} {:>7} {:>8} {:>12.3g}  {}\n", c.name, cfl, o.remapped ? fmt::format("{}", n) : "-",
+                     o.mixed ? closure_names[static_cast<int>(closure)] : "-", fmt::format("{} of {}", o.runs - o.stopped, o.runs), o.steps, o.floors, o.retries,
+                     o.unaccounted, o.why);
+          std::fflush(stdout);
+        }
+      }
+    }
+  }
+  fmt::print("{} of {} runs ended\n", runs - stopped, runs);
+  return stopped;
 }
 
 } // namespace ballast

@@ -2,6 +2,8 @@
 // exact solutions live in tests/verify and tests/exact and are linked into the program.
 #pragma once
 
+#include "ale/scene.hpp"
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -46,7 +48,29 @@ struct VerifyCase {
 /// All cases, defined in tests/verify/cases.cpp.
 std::vector<VerifyCase> verification_cases();
 
+/// How `verify --hard` runs every case, whatever the case itself chose.
+struct Trial {
+  double cfl = 0.5;
+  int remap_every = 1; ///< of what is remapped
+  Closure closure = Closure::pressure_relaxation;
+};
+
+/// What became of the runs of a case.
+struct TrialOutcome {
+  int runs = 0, stopped = 0;
+  std::string why;                         ///< the first that stopped
+  long steps = 0, floors = 0, retries = 0; ///< floors: cut energy returns
+  double unaccounted = 0;                  ///< energy, worst, of its scale
+  bool remapped = false, mixed = false;    ///< do remap_every, closure matter?
+};
+/// Runs a case under a trial; tests/verify/trial.cpp.
+TrialOutcome run_trial(const VerifyCase& c, const Trial& trial);
+
 /// Runs the named cases (all when empty), prints a table; number of failed gates.
 int run_verification(const std::vector<std::string>& names);
+
+/// Every case at CFL 0.3, 0.5, 0.8, remapped every step and every fourth, with every closure, as far as it has a remap and mixed
+/// cells: a table of what ended, what stopped and why, floors, energy unaccounted. Number of runs that stopped.
+int run_hard_verification(const std::vector<std::string>& names);
 
 } // namespace ballast

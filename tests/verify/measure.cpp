@@ -1,5 +1,7 @@
 #include "tests/verify/measure.hpp"
 
+#include "tests/verify/trial.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -86,7 +88,7 @@ bool Arrival::record(const Scene<2>& scene, const Clock& clock) {
 
 TubeRun<2> run_watched(const Tube& tube, const std::vector<Observer<2>*>& observers) {
   TubeRun<2> r = make_tube<2>(tube);
-  run(r.scene, r.clock, observers);
+  go(r.scene, r.clock, observers);
   r.end = totals(r.scene.blocks[0]);
   return r;
 }
@@ -98,7 +100,7 @@ TubeRun<Dim> run_scene(Scene<Dim>&& scene, double end_time, const std::vector<Ob
   r.clock.end_time = end_time;
   prepare(r.scene);
   r.start = totals(r.scene.blocks[0]);
-  run(r.scene, r.clock, observers);
+  go(r.scene, r.clock, observers);
   r.end = totals(r.scene.blocks[0]);
   return r;
 }

@@ -1,6 +1,7 @@
 // Open boundaries: what comes in is what was prescribed, what goes out does not come back.
 #include "tests/verify/cases.hpp"
 #include "tests/verify/measure.hpp"
+#include "tests/verify/trial.hpp"
 #include "materials/library.hpp"
 
 #include <algorithm>
@@ -168,7 +169,7 @@ template <int Dim> TubeRun<Dim> pulse(int axis, MotionPolicy motion, int width, 
   prepare(run.scene);
   run.start = totals(b);
   run.clock.end_time = 0.875 / c; // the middle is out at 0.375 / c; its echo would stand at 0.5
-  ballast::run(run.scene, run.clock);
+  go(run.scene, run.clock);
   run.end = totals(b);
   return run;
 }
@@ -236,7 +237,7 @@ void shock_out(VerifyReport& r, const std::string& name, double pressure_ratio, 
     const bool fixed = motion == MotionPolicy::eulerian;
     r.at_most(who + ", share of the shock that comes back", fixed ? limit.eulerian : limit.lagrangian, off());
     run.clock.end_time += 10 / c;
-    ballast::run(run.scene, run.clock);
+    go(run.scene, run.clock);
     run.end = totals(run.scene.blocks[0]);
     if (fixed) { // a Lagrangian mesh has moved on
       r.at_most(who + ", ten passages later", limit.eulerian_late, off());

@@ -1,6 +1,8 @@
 #include "tests/verify/tube.hpp"
 
+
 #include "materials/library.hpp"
+#include "tests/verify/trial.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +89,7 @@ template <int Dim> TubeRun<Dim> make_tube(const Tube& t) {
 
 template <int Dim> TubeRun<Dim> run_tube(const Tube& tube) {
   TubeRun<Dim> r = make_tube<Dim>(tube);
-  run(r.scene, r.clock);
+  go(r.scene, r.clock);
   r.end = totals(r.scene.blocks[0]);
   return r;
 }
