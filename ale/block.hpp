@@ -65,12 +65,16 @@ struct Motion {
 
 inline constexpr std::int8_t mixed_cell = -1;
 
+/// How the volume change of a mixed cell is shared among its materials (ale/closure).
+enum class Closure { pressure_relaxation, tipton, equal_strain };
+
 template <int Dim> struct Block {
   std::string name = "mesh";
   Grid grid;
   bool axisymmetric = false;
   Motion motion;
   BoundarySet boundary;
+  Closure closure = Closure::pressure_relaxation;
   double reference_pressure = 0; ///< Pa; forces use p minus this
 
   std::array<RowField, Dim> position, velocity, next_position, next_velocity;

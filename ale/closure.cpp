@@ -172,19 +172,12 @@ void tipton(const CellMotion& m, MixedCell& cell) {
 }
 
 void equal_strain(const CellMotion& m, MixedCell& cell) {
-  const double p_half = m.pressure - m.modulus * m.compression;
-  double mean = 0, share[max_materials_in_cell];
-  for (int k = 0; k < cell.count; ++k) {
-    const MixedCell::Part& p = cell.part[k];
-    share[k] = p.volume / m.volume * (p.pressure - p.modulus * m.compression);
-    mean += share[k];
-  }
   for (int k = 0; k < cell.count; ++k) {
     MixedCell::Part& p = cell.part[k];
-    p.volume_change = p.volume / m.volume * m.volume_change;
-    p.slack = p.volume / m.volume * (m.swept_volume - m.volume_change);
-    // The force used p_half; what differs from the fractions' mean goes by volume.
-    p.work = -(share[k] + p.volume / m.volume * (p_half - mean)) * m.swept_volume;
+    const double share = p.volume / m.volume;
+    p.volume_change = share * m.volume_change;
+    p.slack = share * (m.swept_volume - m.volume_change);
+    p.work = -share * (p.pressure - p.modulus * m.compression) * m.swept_volume;
   }
 }
 
@@ -202,8 +195,8 @@ void share_volume_change(Closure closure, const CellMotion& motion, MixedCell& c
   }
 }
 
-CellPressure mixed_pressure(const MixedCell& cell, double void_pressure) {
-  double compliance = 0, weighted = 0, volume = 0;
+CellPressure mixed_pressure(Closure closure, const MixedCell& cell, double void_pressure) {
+  double compliance = 0, weighted = 0, volume = 0, strained = 0, stiffness = 0;
   for (int k = 0; k < cell.count; ++k) {
     const MixedCell::Part& p = cell.part[k];
     if (p.is_void) {
@@ -212,6 +205,11 @@ CellPressure mixed_pressure(const MixedCell& cell, double void_pressure) {
     compliance += p.volume / p.modulus;
     weighted += p.volume / p.modulus * p.pressure;
     volume += p.volume;
+    strained += p.volume * p.pressure;
+    stiffness += p.volume * p.modulus;
+  }
+  if (closure == Closure::equal_strain) {
+    return {strained / volume, stiffness / volume};
   }
   return {weighted / compliance, volume / compliance};
 }

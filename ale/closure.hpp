@@ -39,10 +39,10 @@ struct CellMotion {
 /// works = -(pressure - modulus * compression) * swept_volume for cells without void.
 void share_volume_change(Closure closure, const CellMotion& motion, MixedCell& cell);
 
-/// Cell pressure sum beta_k p_k and modulus 1 / sum R_k; with void: the void's own.
+/// Cell pressure sum beta_k p_k and modulus 1 / sum R_k; with equal strain sum f_k p_k and sum f_k K_k; with void: the void's own.
 struct CellPressure {
   double pressure = 0, modulus = 0;
 };
-CellPressure mixed_pressure(const MixedCell& cell, double void_pressure);
+CellPressure mixed_pressure(Closure closure, const MixedCell& cell, double void_pressure);
 
 } // namespace ballast

@@ -13,9 +13,6 @@
 
 namespace ballast {
 
-/// How the volume change of a mixed cell is shared among its materials (ale/closure).
-enum class Closure { pressure_relaxation, tipton, equal_strain };
-
 struct Numerics {
   double cfl = 0.5;
   Closure closure = Closure::pressure_relaxation;

@@ -80,6 +80,7 @@ template <int Dim> void prepare(Scene<Dim>& scene) {
     for (std::size_t d = 0; d < Dim; ++d) {
       exchange_nodes(b.grid, b.boundary, static_cast<int>(d), b.velocity[d]);
     }
+    b.closure = scene.numerics.closure;
     if (b.motion.policy == MotionPolicy::follow) {
       b.home = b.target;
       b.motion.start = centre_of_mass(b, b.motion.leaders);

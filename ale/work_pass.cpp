@@ -136,8 +136,7 @@ template <int Dim> void conduct(Block<Dim>& b, const MixedCell& cell, int r, int
 /// Energy and volumes of one mixed cell. Returns the energy that void took or gave: what the materials received less what
 /// the forces and the reference pressure gave.
 template <int Dim>
-double advance_mixed(Scene<Dim>& scene,
-                     Block<Dim>& b,
+double advance_mixed(Block<Dim>& b,
                      int r,
                      int i,
                      const Eigen::Vector3d& n,
@@ -146,7 +145,7 @@ double advance_mixed(Scene<Dim>& scene,
                      int& failed) {
   const double volume = b.volume.row(r)[i], next_volume = b.next_volume.row(r)[i];
   MixedCell cell = load_mixed(b, r, i, volume, n);
-  const CellPressure whole = mixed_pressure(cell, -b.reference_pressure);
+  const CellPressure whole = mixed_pressure(b.closure, cell, -b.reference_pressure);
   const CellMotion motion{volume,
                           next_volume - volume,
                           w.swept_volume[i],
@@ -154,7 +153,7 @@ double advance_mixed(Scene<Dim>& scene,
                           whole.pressure,
                           whole.modulus,
                           dt};
-  share_volume_change(scene.numerics.closure, motion, cell);
+  share_volume_change(b.closure, motion, cell);
   // The closure shares the normal traction's work, the rest of the stress works on each material's
   // own strain (ale/traction), what is left (viscosity, hourglass) goes by mass: the sum is exact.
   const double p_half = motion.pressure - motion.modulus * motion.compression;
@@ -254,7 +253,7 @@ void advance_row(Scene<Dim>& scene,
         b.any_strength()
             ? Eigen::Vector3d(b.interface_normals[static_cast<std::size_t>(r)][q++].data())
             : Eigen::Vector3d::Zero();
-    sums.void_work += advance_mixed(scene, b, r, i, n, dt, buffer.rows, sums.failed);
+    sums.void_work += advance_mixed(b, r, i, n, dt, buffer.rows, sums.failed);
     sums.failed_cell = sums.failed > before ? std::array<int, 3>{i, j, k} : sums.failed_cell;
   }
   sums.swept_volume += lane_sum(buffer.rows.swept_volume, g.cells[0]);

@@ -15,8 +15,8 @@ MixedCell two_materials() {
   return c;
 }
 
-CellMotion motion_of(const MixedCell& c, double change) {
-  const CellPressure p = mixed_pressure(c, 0);
+CellMotion motion_of(const MixedCell& c, double change, Closure closure = Closure::pressure_relaxation) {
+  const CellPressure p = mixed_pressure(closure, c, 0);
   return {1.0, change, change, 0.5 * change, p.pressure, p.modulus, 1e-7};
 }
 
@@ -25,7 +25,7 @@ class EveryClosure : public ::testing::TestWithParam<Closure> {};
 TEST_P(EveryClosure, SharesSumToTheCellsChangeAndWork) {
   for (const double change : {-0.01, 0.0, 0.02}) {
     MixedCell c = two_materials();
-    const CellMotion m = motion_of(c, change);
+    const CellMotion m = motion_of(c, change, GetParam());
     share_volume_change(GetParam(), m, c);
     const double dv = c.part[0].volume_change + c.part[1].volume_change;
     const double work = c.part[0].work + c.part[1].work;
@@ -56,7 +56,7 @@ TEST_P(EveryClosure, GasBesideMetalKeepsAVolume) {
   c.count = 2;
   c.part[0] = {0, false, 0.99, 8840, 0, 0, 1.3e11, 3900};
   c.part[1] = {1, false, 0.01, 0.012, 2e5, 0, 1.4e5, 340};
-  const CellMotion m = motion_of(c, -0.02);
+  const CellMotion m = motion_of(c, -0.02, GetParam());
   share_volume_change(GetParam(), m, c);
   EXPECT_GT(c.part[1].volume + c.part[1].volume_change, 0);
   EXPECT_NEAR(c.part[0].volume_change + c.part[1].volume_change, -0.02, 1e-15);

@@ -44,6 +44,7 @@ template <int Dim> bool go(Scene<Dim>& scene, Clock& clock, const std::vector<Ob
   scene.numerics.closure = trial->closure;
   for (Block<Dim>& b : scene.blocks) {
     b.motion.remap_every = trial->remap_every;
+    b.closure = trial->closure;
     outcome.remapped = outcome.remapped || b.motion.remaps();
     outcome.mixed = outcome.mixed || b.materials.size() > 1;
   }
