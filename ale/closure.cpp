@@ -148,7 +148,7 @@ void tipton(const CellMotion& m, MixedCell& cell) {
   double stiff[max_materials_in_cell], sum = 0, weighted = 0;
   for (int k = 0; k < cell.count; ++k) {
     const MixedCell::Part& p = cell.part[k];
-    stiff[k] = p.modulus * (1 + length / (p.sound_speed * m.dt));
+    stiff[k] = p.modulus + std::sqrt(p.modulus * p.mass / p.volume) * length / m.dt; // K (1 + L / (c dt))
     sum += p.volume / stiff[k];
     weighted += p.volume / stiff[k] * p.pressure;
   }
@@ -161,12 +161,18 @@ void tipton(const CellMotion& m, MixedCell& cell) {
   }
   const double a = limited(cell, exchange);
   const double p_half = m.pressure - m.modulus * m.compression;
+  double rest = -p_half * m.swept_volume, mass = 0;
   for (int k = 0; k < cell.count; ++k) {
     MixedCell::Part& p = cell.part[k];
-    const double strain = p.volume / m.volume;
+    const double strain = p.volume / m.volume, worked = strain * m.swept_volume + a * exchange[k];
     p.volume_change = strain * m.volume_change + a * exchange[k];
     p.slack = strain * (m.swept_volume - m.volume_change);
-    p.work = -p_half * (strain * m.swept_volume + a * exchange[k]);
+    p.work = -(p.pressure - 0.5 * p.modulus * p.volume_change / p.volume) * worked; // its own: a gas cannot pull as metal does
+    rest -= p.work;
+    mass += p.mass;
+  }
+  for (int k = 0; k < cell.count; ++k) {
+    cell.part[k].work += rest * (cell.part[k].mass / mass);
   }
   cap_changes(cell);
 }
@@ -192,6 +198,18 @@ void share_volume_change(Closure closure, const CellMotion& motion, MixedCell& c
   case Closure::pressure_relaxation: return relax(motion, cell);
   case Closure::tipton: return tipton(motion, cell);
   case Closure::equal_strain: return equal_strain(motion, cell);
+  }
+}
+
+void stiffen_cold(MixedCell& cell) {
+  constexpr double trace = 1e-12, least = 1e-200; // of the stiffest; Pa, if all are cold
+  double most = 0;
+  for (int k = 0; k < cell.count; ++k) {
+    most = std::max(most, cell.part[k].modulus);
+  }
+  for (int k = 0; k < cell.count; ++k) {
+    MixedCell::Part& p = cell.part[k];
+    p.modulus = p.is_void || p.modulus != 0 ? p.modulus : std::max(trace * most, least);
   }
 }
 

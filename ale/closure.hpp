@@ -20,7 +20,7 @@ struct MixedCell {
   struct Part {
     int material = 0;
     bool is_void = false;
-    double volume = 0, mass = 0, energy = 0, pressure = 0, modulus = 0, sound_speed = 0;
+    double volume = 0, mass = 0, energy = 0, pressure = 0, modulus = 0;
     double volume_change = 0; ///< out, m3
     double work = 0;          ///< out, pressure work of gauge pressures, J
     double slack = 0;         ///< out, m3: part's share of swept_volume - volume_change, which the work has and volume_change not
@@ -38,6 +38,9 @@ struct CellMotion {
 /// Fills volume_change and work of every part; sum of changes = motion.volume_change, and the sum of
 /// works = -(pressure - modulus * compression) * swept_volume for cells without void.
 void share_volume_change(Closure closure, const CellMotion& motion, MixedCell& cell);
+
+/// Gives a cold gas (p = K = 0) beside others a trace of their stiffness: without any its share of a change would be infinite.
+void stiffen_cold(MixedCell& cell);
 
 /// Cell pressure sum beta_k p_k and modulus 1 / sum R_k; with equal strain sum f_k p_k and sum f_k K_k; with void: the void's own.
 struct CellPressure {

@@ -238,6 +238,7 @@ template <int Dim> void traction_cell(Block<Dim>& b, int r, int i, const Eigen::
       soft += f / shear_modulus(slot.material.strength);
     }
   }
+  stiffen_cold(cell);
   const CellPressure cp = mixed_pressure(b.closure, cell, -b.reference_pressure);
   const double mean = T.trace() / 3;
   b.pressure.row(r)[i] = cp.pressure - mean;

@@ -72,8 +72,8 @@ MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume, const Eig
       p.pressure -= n.dot(deviator_of<Dim>(slot, r, i) * n);
       p.modulus += n.squaredNorm() * 4 / 3 * shear_modulus(slot.material.strength);
     }
-    p.sound_speed = std::sqrt(p.modulus * p.volume / p.mass);
   }
+  stiffen_cold(cell);
   return cell;
 }
 

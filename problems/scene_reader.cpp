@@ -302,6 +302,11 @@ void read_background(Deck& deck, const Section& top, MaterialBook& book, SceneSp
     return;
   }
   scene.background = book.index(deck, node->text, *node).value_or(-1);
+  if (scene.background >= 0 && scene.ambient_pressure == 0 && book.used().size() > 1 &&
+      std::holds_alternative<IdealGas>(book.used()[static_cast<std::size_t>(scene.background)].eos)) {
+    deck.fail(*node, fmt::format("{} at no pressure beside other materials: it would have neither stiffness nor warmth", node->text),
+              "an `ambient.pressure`, or `void`");
+  }
   if (scene.bodies.empty() && scene.background < 0 && deck.clean()) {
     deck.fail(
         {top.self().place, "body", "the scene is empty", "at least one [[body]], or a background"});
