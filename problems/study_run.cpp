@@ -131,15 +131,19 @@ private:
   void wait_for_one(const std::vector<Job>& all) {
     int status = 0;
     rusage used{};
-    const pid_t child = wait4(-1, &status, 0, &used);
-    if (child < 0) { // a signal: hand it on, the runs write their checkpoints and end
-      for (const auto& [pid, what] : running_) {
-        kill(pid, SIGTERM);
-      }
-      return;
+    auto at = running_.begin();
+    pid_t ended = 0;
+    for (; at != running_.end() && ended == 0; at = ended == 0 ? std::next(at) : at) {
+      ended = wait4(at->first, &status, WNOHANG, &used); // -1: it is gone, nobody knows how
     }
-    const auto at = running_.find(child);
-    if (at == running_.end()) {
+    if (ended == 0) {
+      if (stop_asked != 0 && !handed_on_) { // the runs write their checkpoints and end
+        handed_on_ = true;
+        for (const auto& [pid, what] : running_) {
+          kill(pid, SIGTERM);
+        }
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
       return;
     }
     const auto [index, before] = at->second;
@@ -149,9 +153,9 @@ private:
                         std::max(before.peak_memory, 1024.0 * static_cast<double>(used.ru_maxrss))});
     ++done_;
     ++ran_;
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const int code = ended > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     report(all, index, code == 0 ? "finished" : code == 3 ? "stopped by a numerical failure" : code == 130 ? "interrupted"
-           : fmt::format("ended with status {} (see {})", WIFEXITED(status) ? code : 128 + WTERMSIG(status), (folder / "run.log").string()));
+           : fmt::format("ended with status {} (see {})", ended > 0 && WIFSIGNALED(status) ? 128 + WTERMSIG(status) : code, (folder / "run.log").string()));
   }
 
   void report(const std::vector<Job>& all, std::size_t index, const std::string& what) {
@@ -170,6 +174,7 @@ private:
   int jobs_, threads_;
   std::map<pid_t, Running> running_;
   std::size_t done_ = 0, ran_ = 0;
+  bool handed_on_ = false;
   std::chrono::steady_clock::time_point start_;
 };
 
@@ -208,7 +213,7 @@ int study_command(const StudyOptions& options, std::string& out) {
   fmt::print("{} runs in {}, {} at once, {} thread{} each\n", jobs.size(), out, options.jobs, threads, threads == 1 ? "" : "s");
   std::fflush(stdout);
   struct sigaction action{};
-  action.sa_handler = on_stop; // without SA_RESTART: a wait ends
+  action.sa_handler = on_stop;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   const bool finished = Runner(folder, options.jobs, threads).run(jobs);
