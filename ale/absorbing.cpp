@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <numbers>
 
 namespace ballast {
 
@@ -20,7 +21,7 @@ template <int Dim> Vector<Dim> position_of(const Block<Dim>& b, const std::array
   return x;
 }
 
-/// The node's share of the area (m2; by metre of depth, by radian) of an edge cell's face across `axis`; `step` leads along the
+/// The node's share of the area (m2; by metre of depth; around the axis) of an edge cell's face across `axis`; `step` leads along the
 /// face, by axis, from the node to the cell's other nodes.
 template <int Dim> Vector<Dim> area_share(const Block<Dim>& b, const std::array<int, 3>& node, int axis, const std::array<int, 3>& step) {
   const auto at = [&](bool first, bool second) { // along the face's one or two directions
@@ -37,7 +38,7 @@ template <int Dim> Vector<Dim> area_share(const Block<Dim>& b, const std::array<
   };
   if constexpr (Dim == 2) {
     const Vector<2> here = at(false, false), there = at(true, false), along = there - here;
-    const double weight = b.axisymmetric ? (2 * here[0] + there[0]) / 6 : 0.5;
+    const double weight = b.axisymmetric ? std::numbers::pi * (2 * here[0] + there[0]) / 3 : 0.5;
     return weight * Vector<2>(-along[1], along[0]);
   } else {
     const Vector<3> a = at(true, true) - at(false, false), c = at(true, false) - at(false, true);
@@ -84,9 +85,10 @@ template <int Dim> Matrix<Dim> impedance(const Block<Dim>& b, const std::array<i
       }
     }
   }
-  for (int axis = 0; axis < Dim; ++axis) { // where a wall holds the node no traction moves it
+  for (int axis = 0; axis < Dim; ++axis) { // where another side sets the node's velocity no traction moves it
     const auto a = static_cast<std::size_t>(axis);
-    if ((node[a] == 0 && b.boundary.fixes_normal_velocity(axis, 0)) || (node[a] == g.cells[a] && b.boundary.fixes_normal_velocity(axis, 1))) {
+    const auto sets = [&](int side) { return b.boundary.fixes_normal_velocity(axis, side) || b.boundary.at(axis, side).kind == BoundaryKind::outflow; };
+    if ((node[a] == 0 && sets(0)) || (node[a] == g.cells[a] && sets(1))) {
       z.row(axis).setZero();
       z.col(axis).setZero();
     }
@@ -111,17 +113,25 @@ template <int Dim> void absorb_row(Block<Dim>& b, int j, int k, double dt, doubl
       continue;
     }
     const Matrix<Dim> z = impedance(b, {i, j, k});
-    Vector<Dim> u, free;
+    // Where two velocities meet the traction moves both alike: their centre of mass is what it sees and works on.
+    Vector<Dim> u, free, apart = Vector<Dim>::Zero();
     for (int d = 0; d < Dim; ++d) {
-      u[d] = b.velocity[static_cast<std::size_t>(d)].row(r)[i];
-      free[d] = b.next_velocity[static_cast<std::size_t>(d)].row(r)[i];
+      const auto a = static_cast<std::size_t>(d);
+      u[d] = b.velocity[a].row(r)[i];
+      free[d] = b.next_velocity[a].row(r)[i];
+      if (b.any_sliding()) {
+        const double off = b.sliding.node_mass.row(r)[i] / m[i] - remap::node_follows(b.sliding.node_mass.row(r)[i], m[i]);
+        u[d] += off * b.sliding.jump[a].row(r)[i];
+        apart[d] = off * b.sliding.next_jump[a].row(r)[i];
+      }
     }
+    free += apart;
     const Matrix<Dim> half = (0.5 * dt / m[i]) * z;
     const Vector<Dim> next = (Matrix<Dim>::Identity() + half).inverse() * (free - half * u);
     const Vector<Dim> mean = 0.5 * (u + next), pull = -(z * mean);
     for (int d = 0; d < Dim; ++d) {
       const auto a = static_cast<std::size_t>(d);
-      b.next_velocity[a].row(r)[i] = next[d];
+      b.next_velocity[a].row(r)[i] = next[d] - apart[d];
       force[d][i] += pull[d];
       effect.impulse[a] += dt * pull[d];
     }

@@ -59,6 +59,9 @@ struct Motion {
   std::array<bool, 3> axes = {false, false, false};     ///< follow: along which axes
   std::array<double, 3> start = {0, 0, 0};              ///< follow: where the centre of mass was at first, m
 
+  std::array<double, 3> heading = {0, 0, 0};            ///< follow: mean velocity of the leaders at the last remap, m/s
+  double start_mass = 0;                                ///< follow: of the leaders, kg
+
   bool remaps() const { return policy != MotionPolicy::lagrangian; }
   bool due(long step) const { return remaps() && (step + 1) % remap_every == 0; }
 };

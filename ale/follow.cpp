@@ -8,50 +8,57 @@
 
 namespace ballast {
 
-template <int Dim> std::array<double, 3> centre_of_mass(const Block<Dim>& b, const std::vector<int>& materials) {
+template <int Dim> Bulk bulk_of(const Block<Dim>& b, const std::vector<int>& materials) {
   const Grid& g = b.grid;
-  double mass = 0;
-  std::array<double, 3> moment = {0, 0, 0};
+  Bulk sum;
   for (int k = 0; k < g.cells[2]; ++k) {
     for (int j = 0; j < g.cells[1]; ++j) {
       const int r = g.cell_row(j, k);
       for (const int q : materials) {
-        const TileStore& store = b.materials[static_cast<std::size_t>(q)].store;
-        if (!store.has_row(r)) {
+        const MaterialSlot& slot = b.materials[static_cast<std::size_t>(q)];
+        if (!slot.store.has_row(r)) {
           continue;
         }
-        const double* m = store.row(field::mass, r);
+        const double* m = slot.store.row(field::mass, r);
         for (int i = 0; i < g.cells[0]; ++i) {
           if (!(m[i] > 0)) {
             continue;
           }
-          mass += m[i];
+          sum.mass += m[i];
           for (int corner = 0; corner < (1 << Dim); ++corner) {
-            const int nodes = g.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1));
+            const int nodes = g.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)), n = i + (corner & 1);
             for (std::size_t d = 0; d < Dim; ++d) {
-              moment[d] += m[i] / (1 << Dim) * b.position[d].row(nodes)[i + (corner & 1)];
+              sum.centre[d] += m[i] / (1 << Dim) * b.position[d].row(nodes)[n];
+              sum.velocity[d] += m[i] / (1 << Dim) * velocity_of(b, slot.slides, d, nodes, n);
             }
           }
         }
       }
     }
   }
-  for (double& x : moment) {
-    x = mass > 0 ? x / mass : 0.0;
+  for (std::size_t d = 0; d < Dim && sum.mass > 0; ++d) {
+    sum.centre[d] /= sum.mass;
+    sum.velocity[d] /= sum.mass;
   }
-  return moment;
+  return sum;
 }
 
 template <int Dim> void place_target(Block<Dim>& b) {
   if (b.motion.policy != MotionPolicy::follow) {
     return;
   }
-  const std::array<double, 3> now = centre_of_mass(b, b.motion.leaders);
+  constexpr double some = 0.01; // of what there was to follow; less is dust
+  const Bulk now = bulk_of(b, b.motion.leaders);
+  b.motion.heading = {0, 0, 0};
+  if (!(now.mass > some * b.motion.start_mass)) {
+    return;
+  }
   for (std::size_t d = 0; d < Dim; ++d) {
     if (!b.motion.axes[d]) {
       continue;
     }
-    const double shift = now[d] - b.motion.start[d];
+    b.motion.heading[d] = now.velocity[d];
+    const double shift = now.centre[d] - b.motion.start[d];
     const auto& from = b.home[d].data();
     auto& to = b.target[d].data();
     for (std::size_t i = 0; i < to.size(); ++i) {
@@ -60,8 +67,8 @@ template <int Dim> void place_target(Block<Dim>& b) {
   }
 }
 
-template std::array<double, 3> centre_of_mass<2>(const Block<2>&, const std::vector<int>&);
-template std::array<double, 3> centre_of_mass<3>(const Block<3>&, const std::vector<int>&);
+template Bulk bulk_of<2>(const Block<2>&, const std::vector<int>&);
+template Bulk bulk_of<3>(const Block<3>&, const std::vector<int>&);
 template void place_target<2>(Block<2>&);
 template void place_target<3>(Block<3>&);
 

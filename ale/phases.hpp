@@ -33,8 +33,12 @@ template <int Dim> DtLimit stable_dt(Scene<Dim>& scene);
 /// state (pressures, owners) as it was: new_state comes next.
 template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock);
 
-/// Centre of mass (m) of some materials of a block.
-template <int Dim> std::array<double, 3> centre_of_mass(const Block<Dim>& block, const std::vector<int>& materials);
+/// Mass (kg), centre of mass (m) and its velocity (m/s) of some materials of a block.
+struct Bulk {
+  double mass = 0;
+  std::array<double, 3> centre = {0, 0, 0}, velocity = {0, 0, 0};
+};
+template <int Dim> Bulk bulk_of(const Block<Dim>& block, const std::vector<int>& materials);
 
 /// Moves the target mesh of a following block to where its leaders are (ale/follow); other blocks' stays.
 template <int Dim> void place_target(Block<Dim>& block);

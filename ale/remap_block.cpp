@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "remap/mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -25,9 +26,34 @@ double least_energy(const Material& m) {
   return stiff ? stiff->energy(m.density, 0) : 0.0;
 }
 
-/// Does a following mesh move along this side's axis, so that what lies in its way comes in?
+/// Does a following mesh move towards this side, so that what lies in its way comes in?
 template <int Dim> bool passes(const Block<Dim>& b, int axis, int side) {
-  return b.motion.policy == MotionPolicy::follow && b.motion.axes[static_cast<std::size_t>(axis)] && b.boundary.open(axis, side);
+  const double heading = b.motion.heading[static_cast<std::size_t>(axis)];
+  return b.motion.policy == MotionPolicy::follow && b.outside && (side == 0 ? heading < 0 : heading > 0) && b.boundary.open(axis, side);
+}
+
+/// What comes in at such a side is at rest.
+template <int Dim> void rest_ahead(const Block<Dim>& b, RowField& velocity) {
+  const Grid& g = b.grid;
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      if (!passes(b, axis, side)) {
+        continue;
+      }
+      const int n = g.cells[static_cast<std::size_t>(axis)];
+      for (int k = Dim == 3 ? -g.ghost[2] : 0; k <= (Dim == 3 ? g.cells[2] + g.ghost[2] : 0); ++k) {
+        for (int j = -g.ghost[1]; j <= g.cells[1] + g.ghost[1]; ++j) {
+          const int index[3] = {0, j, k};
+          if (axis > 0 && (side == 0 ? index[axis] >= 0 : index[axis] <= n)) {
+            continue;
+          }
+          double* u = velocity.row(g.node_row(j, k));
+          const int first = axis == 0 && side == 1 ? n + 1 : -g.ghost[0], last = axis == 0 && side == 0 ? -1 : g.cells[0] + g.ghost[0];
+          std::fill(u + first, u + last + 1, 0.0);
+        }
+      }
+    }
+  }
 }
 
 /// What a ghost cell beyond a fed side holds.
@@ -37,7 +63,7 @@ template <int Dim> void beyond(const Block<Dim>& b, int axis, int side, const st
     parts.push_back({from.inflow.material, 1, from.inflow.density, from.inflow.specific_energy});
     return;
   }
-  if (!passes(b, axis, side) || !b.outside) {
+  if (!passes(b, axis, side)) {
     parts.push_back({b.void_index()});
     return;
   }
@@ -47,10 +73,19 @@ template <int Dim> void beyond(const Block<Dim>& b, int axis, int side, const st
     const auto a = static_cast<std::size_t>(d);
     at[a] = d == axis || (at[a] >= 0 && at[a] < b.grid.cells[a]) ? at[a] : mirrored_cell(at[a], b.grid.cells[a]);
   }
+  // Where the side's nodes are on their way to the target, the ghosts are.
+  std::array<int, 3> edge = at;
+  edge[static_cast<std::size_t>(axis)] = side == 0 ? 0 : b.grid.cells[static_cast<std::size_t>(axis)];
+  const int edge_row = b.grid.node_row(edge[1], edge[2]);
   for (std::size_t d = 0; d < Dim; ++d) {
     const int r = b.grid.node_row(at[1], at[2]), up = b.grid.node_row(at[1] + (d == 1 ? 1 : 0), at[2] + (d == 2 ? 1 : 0));
     lo[d] = b.target[d].row(r)[at[0]];
     hi[d] = b.target[d].row(up)[at[0] + (d == 0 ? 1 : 0)];
+    if (static_cast<int>(d) == axis) {
+      const double left = b.position[d].row(edge_row)[edge[0]] - b.target[d].row(edge_row)[edge[0]];
+      lo[d] += left;
+      hi[d] += left;
+    }
   }
   b.outside(lo, hi, parts);
 }
@@ -74,6 +109,7 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
                      .scratch = &b.remap_scratch,
                      .exchange_velocity = [&b](RowField& f, int component) {
                        exchange_nodes(b.grid, b.boundary, component, f);
+                       rest_ahead(b, f);
                      }};
   m.sliding = b.any_sliding() ? &b.sliding : nullptr;
   for (MaterialSlot& slot : b.materials) {

@@ -83,7 +83,9 @@ template <int Dim> void prepare(Scene<Dim>& scene) {
     b.closure = scene.numerics.closure;
     if (b.motion.policy == MotionPolicy::follow) {
       b.home = b.target;
-      b.motion.start = centre_of_mass(b, b.motion.leaders);
+      const Bulk leaders = bulk_of(b, b.motion.leaders);
+      b.motion.start = leaders.centre;
+      b.motion.start_mass = leaders.mass;
     }
     pull_back_to_yield(b, *scene.pool);
     update_state(b, *scene.pool);

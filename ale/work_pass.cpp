@@ -100,10 +100,10 @@ void strain_parts(Block<Dim>& b,
   }
 }
 
-/// Heat between gas and the condensed materials of its cell: a film of thickness d = f L (L the cell's least width) comes to its
-/// initial temperature, e = e0, at the rate k / (rho cv d^2) with cv = e0 / T0. A trace of gas would else boil: each time it merges
-/// with thinner gas and is squeezed again its entropy grows. What the gas gives, the others get by mass; no heat bath is lighter
-/// than the gas.
+/// Heat between gas and the condensed materials of its cell: a film of thickness d = f L (L the cell's least width) comes to the
+/// temperature of its start, e = cv T0, at the rate k / (rho cv d^2). A trace of gas would else boil: each time it merges with
+/// thinner gas and is squeezed again its entropy grows. What the gas gives, the others get by mass; no heat bath is lighter than
+/// the gas.
 template <int Dim> void conduct(Block<Dim>& b, const MixedCell& cell, int r, int i, double dt) {
   double bath = 0, width = std::numeric_limits<double>::infinity(), heat = 0;
   const auto slot_of = [&](int k) -> MaterialSlot& { return b.materials[static_cast<std::size_t>(cell.part[k].material)]; };
@@ -116,13 +116,15 @@ template <int Dim> void conduct(Block<Dim>& b, const MixedCell& cell, int r, int
   for (int k = 0; k < cell.count; ++k) {
     MaterialSlot& slot = slot_of(k);
     const double mass = cell.part[k].mass, f = std::as_const(slot.store).row(field::fraction, r)[i];
-    if (!(slot.material.conductivity > 0 && mass > 0 && mass < bath && f > 0 && slot.reference.e > 0)) {
+    if (!(slot.material.conductivity > 0 && mass > 0 && mass < bath && f > 0)) {
       continue;
     }
-    const double heat_of_film = mass / b.next_volume.row(r)[i] * f * width * width * slot.reference.e; // rho cv d^2 T0
-    const double rate = slot.material.conductivity * slot.material.reference_temperature * dt / heat_of_film;
+    // A gas that starts within 5 % of the ambient temperature is taken to start at it: what is at rest stays so to the bit.
+    const double cold = slot.material.specific_heat * slot.material.reference_temperature, start = slot.reference.e;
+    const double wall = std::abs(start - cold) < 0.05 * cold ? start : cold;
+    const double rate = slot.material.conductivity * dt / (mass / b.next_volume.row(r)[i] * slot.material.specific_heat * f * width * width);
     double& e = slot.store.row(field::energy, r)[i];
-    const double gain = (slot.reference.e - e) * (rate / (1 + rate));
+    const double gain = (wall - e) * (rate / (1 + rate));
     e += gain;
     heat -= gain * mass;
   }

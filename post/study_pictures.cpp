@@ -256,6 +256,12 @@ void draw_varied(const Study& study, std::size_t key, const std::string& measure
 
 } // namespace
 
+bool is_study(const std::filesystem::path& folder) {
+  std::ifstream in(folder / "study.json");
+  const auto j = nlohmann::json::parse(in, nullptr, false);
+  return !j.is_discarded() && j.contains("runs");
+}
+
 int draw_study(const std::filesystem::path& folder, std::ostream& log) {
   const Study study = read_study(folder);
   const std::filesystem::path pictures = folder / "pictures";

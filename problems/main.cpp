@@ -82,7 +82,11 @@ int dispatch(int argc, char** argv) {
 
   std::string dir, view;
   sub = word(app, "report", "pictures and a page of a run directory", result, [&] {
-    ballast::post::report(dir, std::cout, view);
+    if (ballast::post::is_study(dir)) {
+      ballast::post::draw_study(dir, std::cout);
+    } else {
+      ballast::post::report(dir, std::cout, view);
+    }
     return status(ExitStatus::finished);
   });
   sub->add_option("dir", dir, "run directory")->required();

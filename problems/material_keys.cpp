@@ -84,7 +84,7 @@ const SectionSpec& material() {
         .range = positive()},
        {.name = "conductivity",
         .kind = quantity,
-        .doc = "of heat, ideal gas: a film of it between condensed materials takes their temperature; without the key air's, 0.026 W/m/K",
+        .doc = "of heat, ideal gas: a film of it between condensed materials takes the ambient temperature; with a specific heat but without this key air's, 0.026 W/m/K",
         .dimension = Dimension::conductivity,
         .range = not_negative()},
        {.name = "melt_temperature",

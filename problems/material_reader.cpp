@@ -82,10 +82,13 @@ void read_eos(Deck& deck, const Section& in, Material& m, bool fresh) {
     IdealGas eos = fresh ? IdealGas{} : std::get<IdealGas>(m.eos);
     if (fresh) {
       have(deck, in, {"gamma"}, "ideal_gas");
-      m.conductivity = gas_conductivity;
     }
+    m.conductivity = fresh && m.specific_heat > 0 ? gas_conductivity : m.conductivity;
     set(eos.gamma, in, "gamma");
     set(m.conductivity, in, "conductivity");
+    if (m.conductivity > 0 && m.specific_heat <= 0) {
+      have(deck, in, {"specific_heat"}, "conductivity");
+    }
     m.eos = eos;
   } else if (model == 1) {
     StiffenedGas eos = fresh ? StiffenedGas{} : std::get<StiffenedGas>(m.eos);

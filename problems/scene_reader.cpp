@@ -101,6 +101,16 @@ void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene) {
       m.axes[d] = m.axes[d] || (!in.has("axes") && b.velocity[d] != 0);
     }
   }
+  const std::vector<std::string> led = in.texts("bodies");
+  for (const Body& b : scene.bodies) { // the mesh knows materials, not bodies
+    if (std::find(m.leaders.begin(), m.leaders.end(), b.material) != m.leaders.end() && std::find(led.begin(), led.end(), b.name) == led.end()) {
+      deck.fail(*in.node("bodies"), fmt::format("\"{}\" is of a material of theirs and would draw the mesh, too", b.name),
+                "all bodies of their materials, or a material of its own (`base`) for the other");
+    }
+  }
+  if (std::find(m.leaders.begin(), m.leaders.end(), scene.background) != m.leaders.end()) {
+    deck.fail(*in.node("bodies"), "the background is of a material of theirs", "bodies of other materials");
+  }
   for (const std::string& axis : in.texts("axes")) {
     const auto at = std::find(names.begin(), names.end(), axis);
     if (at == names.end()) {

@@ -77,8 +77,16 @@ pid_t start(const Job& job, const fs::path& folder, int threads, bool restart) {
   }
   argv.push_back(nullptr);
   const std::string log = (folder / "run.log").string();
+  sigset_t stops, before;
+  sigemptyset(&stops);
+  sigaddset(&stops, SIGINT);
+  sigaddset(&stops, SIGTERM);
+  sigprocmask(SIG_BLOCK, &stops, &before); // none is lost between fork and exec
   const pid_t child = fork();
   if (child == 0) {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    sigprocmask(SIG_SETMASK, &before, nullptr);
     const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     if (out >= 0) {
       dup2(out, STDOUT_FILENO);
@@ -87,6 +95,7 @@ pid_t start(const Job& job, const fs::path& folder, int threads, bool restart) {
     execv("/proc/self/exe", argv.data());
     _exit(127);
   }
+  sigprocmask(SIG_SETMASK, &before, nullptr);
   if (child < 0) {
     throw Error("study: no new process could be started");
   }
@@ -137,8 +146,9 @@ private:
       ended = wait4(at->first, &status, WNOHANG, &used); // -1: it is gone, nobody knows how
     }
     if (ended == 0) {
-      if (stop_asked != 0 && !handed_on_) { // the runs write their checkpoints and end
-        handed_on_ = true;
+      constexpr double again = 2; // s: a run that was still starting had no ear for it
+      if (stop_asked != 0 && (!handed_on_ || seconds_since(*handed_on_) > again)) { // the runs write their checkpoints and end
+        handed_on_ = std::chrono::steady_clock::now();
         for (const auto& [pid, what] : running_) {
           kill(pid, SIGTERM);
         }
@@ -174,7 +184,7 @@ private:
   int jobs_, threads_;
   std::map<pid_t, Running> running_;
   std::size_t done_ = 0, ran_ = 0;
-  bool handed_on_ = false;
+  std::optional<std::chrono::steady_clock::time_point> handed_on_;
   std::chrono::steady_clock::time_point start_;
 };
 
@@ -195,6 +205,15 @@ int study_command(const StudyOptions& options, std::string& out) {
   std::vector<Variation> variations;
   for (const std::string& text : options.vary) {
     variations.push_back(parse_variation(text));
+  }
+  std::vector<std::string> keys;
+  for (const Variation& v : variations) {
+    for (const std::string& key : v.keys) {
+      if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
+        throw Error(fmt::format("--vary: {} is varied twice", key));
+      }
+      keys.push_back(key);
+    }
   }
   std::vector<Job> jobs;
   for (StudyPoint& point : study_points(variations, options.settings)) {
@@ -233,7 +252,8 @@ int study_command(const StudyOptions& options, std::string& out) {
     }
   }
   write_study(folder, options, variations, rows, reference ? rows[*reference].name : "");
-  return static_cast<int>(finished ? ExitStatus::finished : ExitStatus::interrupted);
+  const bool whole = std::all_of(rows.begin(), rows.end(), [](const StudyRow& row) { return row.ended == "finished" || row.ended == "failed"; });
+  return static_cast<int>(!finished ? ExitStatus::interrupted : whole ? ExitStatus::finished : ExitStatus::numerical_failure);
 }
 
 } // namespace ballast

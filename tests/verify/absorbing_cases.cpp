@@ -24,6 +24,7 @@ struct Wave {
   double angle = 0;               ///< of its way to the normal of the side, rad
   std::array<int, 2> cells;       ///< across, along the side's normal
   std::array<double, 2> through;  ///< a point the middle of the pulse is on at first, in pulse lengths
+  bool axisymmetric = false;
 };
 
 double speed_of(const Wave& w) {
@@ -39,6 +40,7 @@ Scene<2> scene_of(const Wave& w, MotionPolicy motion) {
   const std::array<double, 2> way = {std::sin(w.angle), std::cos(w.angle)};
   const auto along = [&](double x, double y) { return pulse_at((x - w.through[0]) * way[0] + (y - w.through[1]) * way[1]); };
   Block<2> b;
+  b.axisymmetric = w.axisymmetric;
   b.motion = {motion, 1};
   b.reference_pressure = pressure(m.eos, rho, m.specific_energy);
   b.materials.push_back(make_slot(m, b.reference_pressure));
@@ -102,6 +104,7 @@ void head_on(VerifyReport& r, const std::string& name, const Wave& w) {
 
 void head_on_cases(VerifyReport& r) {
   head_on(r, "sound in water", {*find_material("water"), false, 0, {1, 4 * width}, {0, 3}});
+  head_on(r, "sound in water, RZ", {*find_material("water"), false, 0, {4, 4 * width}, {0, 3}, true});
   head_on(r, "pressure wave in copper", {elastic_copper(), false, 0, {1, 4 * width}, {0, 3}});
   // The sides' edges are far: 3 pulse lengths, 2.7 of way.
   head_on(r, "shear wave in copper", {elastic_copper(), true, 0, {12 * width, 2 * width}, {0, 1}});
