@@ -104,7 +104,7 @@ int return_to_yield(const Model& model,
     const FlowState state{rows.plastic_strain[at + i], rows.energy[at + i] - material.specific_energy, dt};
     const PlasticIncrement d = plastic_increment(model, state, q[i]);
     if (d.value > 0) {
-      scale = 1 - 3 * model.shear_modulus * d.value / q[i];
+      scale = std::max(0.0, 1 - 3 * model.shear_modulus * d.value / q[i]); // a molten metal returns to 0, not to round-off below it
       rows.plastic_strain[at + i] += d.value;
       rows.flow_stress[at + i] = scale * q[i];
     } else {
