@@ -5,17 +5,9 @@
 // so that the work of the traction is known exactly and no step is too long.
 #pragma once
 
-#include "ale/scene.hpp"
-
-#include <array>
+#include "ale/lagrange_parts.hpp"
 
 namespace ballast {
-
-/// Work (J) and impulse (kg m/s) on the block.
-struct BoundaryEffect {
-  double work = 0;
-  std::array<double, 3> impulse = {0, 0, 0};
-};
 
 /// Adds the tractions of absorbing sides at the nodes of row (j, k): to next_velocity, and to the row's `force` (N) their mean
 /// over the step.

@@ -14,6 +14,12 @@ inline ForceCoefficients force_coefficients(const Numerics& n, double dt) {
   return {dt, std::min(n.hourglass, 0.03 / n.cfl)};
 }
 
+/// What boundaries did to the block in a step: work (J) and impulse (kg m/s).
+struct BoundaryEffect {
+  double work = 0;
+  std::array<double, 3> impulse = {0, 0, 0};
+};
+
 /// Sums over the cells of a step.
 template <int Dim> struct StepSums {
   double void_work = 0;    ///< J

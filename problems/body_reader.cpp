@@ -74,7 +74,8 @@ bool check_place(Context c, const Section& in, const Body& body) {
   const std::vector<std::string> names = axis_names(c.scene.geometry);
   for (std::size_t k = 0; k < c.dim(); ++k) {
     const auto& lines = c.scene.mesh_lines[k];
-    if (c.scene.motion.policy == MotionPolicy::follow) {
+    const bool radius = c.scene.geometry == Geometry::axisymmetric && k == 0;
+    if (c.scene.motion.policy == MotionPolicy::follow && !radius) {
       continue; // the mesh may come by
     }
     if (!lines.empty() && (b.lo[k] >= lines.back() || b.hi[k] <= lines.front())) {

@@ -18,6 +18,15 @@ SceneSpec scene_of(const std::string& text, const std::string& motion) {
   return s;
 }
 
+Scene<2> at_end(const SceneSpec& spec) {
+  Scene<2> scene = build_scene<2>(spec, 1);
+  Clock clock;
+  clock.end_time = spec.end_time;
+  EXPECT_TRUE(run(scene, clock));
+  EXPECT_GT(clock.step, 30);
+  return scene;
+}
+
 constexpr const char* follows = R"(
 [motion]
 policy = "follow"
@@ -72,11 +81,8 @@ TEST(Follow, WhatFlowsThroughIsAccountedFor) {
   for (const int every : {1, 3}) {
     SceneSpec spec = scene_of(text, follows);
     spec.motion.remap_every = every;
-    Scene<2> scene = build_scene<2>(spec, 1);
-    const Totals start = totals(scene.blocks[0]);
-    Clock clock;
-    clock.end_time = spec.end_time;
-    EXPECT_TRUE(run(scene, clock));
+    const Totals start = totals(build_scene<2>(spec, 1).blocks[0]);
+    const Scene<2> scene = at_end(spec);
     const Totals end = totals(scene.blocks[0]);
     const Ledger& l = scene.ledger;
     EXPECT_NE(l.mass_out[1], 0);
@@ -109,11 +115,8 @@ velocity = ["0 m/s", "600 m/s"]
 r = { from = "0 mm", to = "12 mm", size = "0.75 mm" }
 z = { from = "-25 mm", to = "8 mm", size = "0.75 mm" }
 )", follows);
-  Scene<2> scene = build_scene<2>(spec, 1);
-  const Totals start = totals(scene.blocks[0]);
-  Clock clock;
-  clock.end_time = spec.end_time;
-  EXPECT_TRUE(run(scene, clock));
+  const Totals start = totals(build_scene<2>(spec, 1).blocks[0]);
+  const Scene<2> scene = at_end(spec);
   EXPECT_NE(scene.ledger.mass_out[0], 0);
   EXPECT_LT(totals(scene.blocks[0]).momentum[1], 1.01 * start.momentum[1]);
   EXPECT_LT(totals(scene.blocks[0]).kinetic_energy, start.kinetic_energy);
@@ -143,11 +146,7 @@ z = { from = "-9 mm", to = "13 mm", size = "0.5 mm" }
 )";
   };
   const auto end_of = [](const SceneSpec& spec) {
-    Scene<2> scene = build_scene<2>(spec, 1);
-    Clock clock;
-    clock.end_time = spec.end_time;
-    EXPECT_TRUE(run(scene, clock));
-    EXPECT_GT(clock.step, 30);
+    const Scene<2> scene = at_end(spec);
     return std::array<double, 2>{bulk_of(scene.blocks[0], {1}).centre[1], totals(scene.blocks[0]).internal()};
   };
   const auto moving = end_of(scene_of(deck("600 m/s", "0 m/s"), follows)), resting = end_of(scene_of(deck("0 m/s", "-600 m/s"), ""));
