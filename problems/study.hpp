@@ -28,7 +28,7 @@ struct StudyPoint {
   std::vector<std::string> settings; ///< for --set
   std::string hash;                  ///< of the resolved deck
 };
-/// All combinations, the last variation fastest.
+/// All combinations, the last variation fastest. Throws Error if a key is varied twice.
 std::vector<StudyPoint> study_points(const std::vector<Variation>& variations, const std::vector<std::string>& settings);
 
 /// What a run cost and gave.

@@ -81,6 +81,15 @@ Variation parse_variation(const std::string& text) {
 
 std::vector<StudyPoint> study_points(const std::vector<Variation>& variations, const std::vector<std::string>& settings) {
   constexpr std::size_t most = 10000;
+  std::vector<std::string> keys;
+  for (const Variation& v : variations) {
+    for (const std::string& key : v.keys) {
+      if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
+        throw Error(fmt::format("--vary: {} is varied twice", key));
+      }
+      keys.push_back(key);
+    }
+  }
   std::size_t count = 1;
   for (const Variation& v : variations) {
     count *= v.values.size();

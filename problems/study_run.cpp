@@ -206,15 +206,6 @@ int study_command(const StudyOptions& options, std::string& out) {
   for (const std::string& text : options.vary) {
     variations.push_back(parse_variation(text));
   }
-  std::vector<std::string> keys;
-  for (const Variation& v : variations) {
-    for (const std::string& key : v.keys) {
-      if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
-        throw Error(fmt::format("--vary: {} is varied twice", key));
-      }
-      keys.push_back(key);
-    }
-  }
   std::vector<Job> jobs;
   for (StudyPoint& point : study_points(variations, options.settings)) {
     point.hash = deck_hash(read_scene(options.deck, point.settings)); // every deck is sound before the first run

@@ -28,6 +28,11 @@ TEST(Study, RunsEveryCombinationOnce) {
   EXPECT_EQ(points[5].name, "005_a=3_b+c=y");
 }
 
+TEST(Study, RefusesAKeyThatIsVariedTwice) {
+  EXPECT_THROW(study_points({parse_variation("a=1,2"), parse_variation("b+a=3,4")}, {}), Error);
+  EXPECT_THROW(study_points({parse_variation("a+a=1,2")}, {}), Error);
+}
+
 TEST(Study, ErrorsAreAgainstTheReference) {
   const io::TemporaryFolder folder;
   const auto write = [&](const char* name, const char* text) { std::ofstream(folder.path() / name) << text; };
