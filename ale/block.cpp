@@ -149,6 +149,19 @@ void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lin
   b.target_volume = b.volume;
 }
 
+template <int Dim> void target_volumes(Block<Dim>& b, ThreadPool& pool) {
+  const Grid& g = b.grid;
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        cell_volumes(b, b.target, j, k, b.target_volume.row(g.cell_row(j, k)));
+      }
+    }
+  });
+  exchange_cells(g, b.target_volume);
+}
+
 template <int Dim> void compute_node_mass(Block<Dim>& b, ThreadPool& pool) {
   const Grid& g = b.grid;
   const int planes = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
@@ -246,6 +259,8 @@ void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, in
 
 template void allocate_block<2>(Block<2>&, const std::array<std::vector<double>, 3>&);
 template void allocate_block<3>(Block<3>&, const std::array<std::vector<double>, 3>&);
+template void target_volumes<2>(Block<2>&, ThreadPool&);
+template void target_volumes<3>(Block<3>&, ThreadPool&);
 template void compute_node_mass<2>(Block<2>&, ThreadPool&);
 template void compute_node_mass<3>(Block<3>&, ThreadPool&);
 template void compute_owner<2>(Block<2>&, int);

@@ -46,24 +46,38 @@ struct MaterialSlot {
   int flow_stress_field() const { return store.conserved() + 2; } ///< with strength only
 };
 
+/// Mass (kg), centre of mass (m), its velocity (m/s), mean square distance from it (m2) or from a symmetry plane, where the
+/// block has one at its lower side, and that one's rate (m2/s), of some materials of a block.
+struct Bulk {
+  double mass = 0;
+  std::array<double, 3> centre = {0, 0, 0}, velocity = {0, 0, 0}, spread = {0, 0, 0}, spread_rate = {0, 0, 0};
+};
+
 enum class MotionPolicy {
   lagrangian, ///< never remapped
   eulerian,   ///< back to the initial mesh
-  follow      ///< back to the initial mesh, moved with the centre of mass of some materials
+  follow,     ///< back to the initial mesh, moved and stretched with some materials (ale/follow)
+  relax       ///< on to a smoothed mesh (ale/relax)
 };
 
 struct Motion {
   MotionPolicy policy = MotionPolicy::eulerian;
   int remap_every = 1;
-  std::vector<int> leaders = {};                        ///< follow: materials of the block
-  std::array<bool, 3> axes = {false, false, false};     ///< follow: along which axes
-  std::array<double, 3> start = {0, 0, 0};              ///< follow: where the centre of mass was at first, m
+  double remap_quality = 0; ///< above 0: remapped when a cell's shape falls below it (ale/mesh_quality) instead of every so many steps
 
-  std::array<double, 3> heading = {0, 0, 0};            ///< follow: mean velocity of the leaders at the last remap, m/s
-  double start_mass = 0;                                ///< follow: of the leaders, kg
+  std::vector<int> leaders = {};                       ///< follow: materials of the block
+  std::array<bool, 3> axes = {false, false, false};    ///< follow: along which axes
+  std::array<bool, 3> stretches = {false, false, false}; ///< follow: along which axes the mesh grows with their extent, too
+  Bulk start = {};                                     ///< follow: the leaders at first
+  /// follow: speed of the mesh's sides along their axis at the last remap, m/s.
+  std::array<std::array<double, 2>, 3> side_speed = {};
+
+  bool fixed_boundary = false; ///< relax: boundary nodes stay; else they go with the material
+  int sweeps = 4;              ///< relax: of smoothing, each remap
 
   bool remaps() const { return policy != MotionPolicy::lagrangian; }
-  bool due(long step) const { return remaps() && (step + 1) % remap_every == 0; }
+  /// Is the target mesh another after each remap, so that a restart must know the last?
+  bool moves_target() const { return policy == MotionPolicy::follow || policy == MotionPolicy::relax; }
 };
 
 inline constexpr std::int8_t mixed_cell = -1;
@@ -84,7 +98,9 @@ template <int Dim> struct Block {
   std::array<RowField, Dim> target; ///< where the next remap brings the nodes
   /// follow: what the cell lo..hi (m) held at first, if it did not move; beyond the mesh this is still there.
   std::function<void(const std::array<double, 3>& lo, const std::array<double, 3>& hi, std::vector<remap::Outside>& parts)> outside;
-  std::array<RowField, Dim> home;   ///< follow: where target was at first, along the axes that move
+  std::array<RowField, Dim> home; ///< follow, relax: where target was at first
+  /// relax: weight of a node's lower neighbour along each axis, the upper one has the rest: 1 / distance in `home`.
+  std::array<RowField, Dim> low_weight;
   RowField node_mass;
   /// Share of a cell's mass that goes to the lower node of each axis, by cell index + ghost.
   std::array<std::vector<double>, Dim> low_share;
@@ -158,6 +174,9 @@ void allocate_block(Block<Dim>& block, const std::array<std::vector<double>, 3>&
 /// Volumes (m3) of one row of cells on node positions `x`.
 void cell_volumes(const Block<2>& b, const std::array<RowField, 2>& x, int j, int k, double* volume);
 void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, int k, double* volume);
+
+/// Volumes of the target mesh, ghosts too.
+template <int Dim> void target_volumes(Block<Dim>& block, ThreadPool& pool);
 
 /// Node masses from cell masses: M_p = sum of the cells' shares.
 template <int Dim> void compute_node_mass(Block<Dim>& block, ThreadPool& pool);

@@ -33,15 +33,15 @@ template <int Dim> DtLimit stable_dt(Scene<Dim>& scene);
 /// state (pressures, owners) as it was: new_state comes next.
 template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock);
 
-/// Mass (kg), centre of mass (m) and its velocity (m/s) of some materials of a block.
-struct Bulk {
-  double mass = 0;
-  std::array<double, 3> centre = {0, 0, 0}, velocity = {0, 0, 0};
-};
-template <int Dim> Bulk bulk_of(const Block<Dim>& block, const std::vector<int>& materials);
+/// What the motion of a block has to know of its start; once, on the initial mesh.
+template <int Dim> void start_motion(Block<Dim>& block);
 
-/// Moves the target mesh of a following block to where its leaders are (ale/follow); other blocks' stays.
-template <int Dim> void place_target(Block<Dim>& block);
+/// Is a remap due after this step: every so many, or by the quality of the mesh?
+template <int Dim> bool remap_due(const Block<Dim>& block, long step, ThreadPool& pool);
+
+/// Moves the target mesh of a block and its volumes: following, to where its leaders are (ale/follow); relaxing, to a
+/// smoother one than it has now (ale/relax). That of an eulerian one stays.
+template <int Dim> void place_target(Block<Dim>& block, ThreadPool& pool);
 
 /// Remaps a block from where it is to its target mesh; new_state comes next.
 template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& block, long step);

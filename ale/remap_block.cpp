@@ -28,7 +28,7 @@ double least_energy(const Material& m) {
 
 /// Does a following mesh move towards this side, so that what lies in its way comes in?
 template <int Dim> bool passes(const Block<Dim>& b, int axis, int side) {
-  const double heading = b.motion.heading[static_cast<std::size_t>(axis)];
+  const double heading = b.motion.side_speed[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
   return b.motion.policy == MotionPolicy::follow && b.outside && (side == 0 ? heading < 0 : heading > 0) && b.boundary.open(axis, side);
 }
 
@@ -153,14 +153,19 @@ template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
   }
 }
 
+/// Which axis goes first: in turn, or by lot where remaps come when they are due by quality.
+long order_at(const Motion& motion, long step) {
+  return motion.remap_quality > 0 ? static_cast<long>((static_cast<unsigned long>(step) * 2654435769UL) >> 16 & 0xffffUL) : step / motion.remap_every;
+}
+
 } // namespace
 
 template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step) {
-  place_target(b);
+  place_target(b, *scene.pool);
   remap::Mesh<Dim> mesh = view(b);
   const remap::Settings settings{.normal = scene.numerics.normal, .return_kinetic = scene.numerics.energy_return};
   const std::vector<OutflowNode> leaving = outflow_nodes(b);
-  const remap::Report report = remap::remap(mesh, settings, *scene.pool, step / b.motion.remap_every);
+  const remap::Report report = remap::remap(mesh, settings, *scene.pool, order_at(b.motion, step));
   Ledger& l = scene.ledger;
   for (std::size_t m = 0; m < report.mass_out.size(); ++m) {
     l.mass_out[m] += report.mass_out[m];

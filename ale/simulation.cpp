@@ -11,7 +11,7 @@ template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
   clock.choose(stable_dt(scene), scene.numerics);
   lagrange_step(scene, clock);
   for (Block<Dim>& block : scene.blocks) {
-    const bool due = block.motion.due(clock.step);
+    const bool due = remap_due(block, clock.step, *scene.pool);
     if (due) {
       remap_block(scene, block, clock.step);
     }
@@ -81,12 +81,7 @@ template <int Dim> void prepare(Scene<Dim>& scene) {
       exchange_nodes(b.grid, b.boundary, static_cast<int>(d), b.velocity[d]);
     }
     b.closure = scene.numerics.closure;
-    if (b.motion.policy == MotionPolicy::follow) {
-      b.home = b.target;
-      const Bulk leaders = bulk_of(b, b.motion.leaders);
-      b.motion.start = leaders.centre;
-      b.motion.start_mass = leaders.mass;
-    }
+    start_motion(b);
     pull_back_to_yield(b, *scene.pool);
     update_state(b, *scene.pool);
     update_traction(b, *scene.pool);

@@ -217,8 +217,9 @@ template <int Dim> void release_to_vacuum(Block<Dim>& b) {
 template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   for (const auto& axis : spec.boundaries) {
     for (const Boundary& side : axis) {
-      if (side.kind == BoundaryKind::wall && side.wall_velocity != 0 && spec.motion.remaps()) {
-        throw Error("mesh: a moving wall needs motion.policy = \"lagrangian\": an eulerian mesh stays where it is");
+      const bool goes_along = !spec.motion.remaps() || (spec.motion.policy == MotionPolicy::relax && !spec.motion.fixed_boundary);
+      if (side.kind == BoundaryKind::wall && side.wall_velocity != 0 && !goes_along) {
+        throw Error("mesh: a moving wall needs motion.policy = \"lagrangian\" or \"relax\": other meshes stay where they are at their sides");
       }
     }
   }

@@ -84,7 +84,7 @@ const SectionSpec& motion() {
       {{.name = "policy",
         .kind = choice,
         .doc = "lagrangian: never remapped; eulerian: back to the initial mesh; follow: to the initial mesh moved along "
-               "with `bodies`; relax is not available yet",
+               "with `bodies`; relax: on to a smoothed mesh (harmonic displacement from the initial one)",
         .fallback = "eulerian",
         .choices = {"lagrangian", "eulerian", "follow", "relax"}},
        {.name = "remap_every",
@@ -92,10 +92,26 @@ const SectionSpec& motion() {
         .doc = "steps between remaps",
         .range = {1, 1e6},
         .fallback = "1"},
+       {.name = "remap_quality",
+        .kind = quantity,
+        .doc = "instead of remap_every: a remap is due when the shape of a cell, against what the last remap made it, falls below this "
+               "(mean ratio, 1: the same but for turns and size, 0: a corner collapsed; stretched to twice the length: 0.8)",
+        .range = {0.01, 0.99}},
        {.name = "bodies",
         .kind = texts,
         .doc = "follow: bodies whose materials' centre of mass the mesh goes with"},
-       {.name = "axes", .kind = choices, .doc = "follow: axes along which it goes; default: where these bodies have a velocity", .choices = {"z", "x", "y"}}}};
+       {.name = "axes", .kind = choices, .doc = "follow: axes along which it goes; default: where these bodies have a velocity", .choices = {"z", "x", "y"}},
+       {.name = "stretch",
+        .kind = choices,
+        .doc = "follow: axes along which the mesh also grows and shrinks with these bodies' extent (their root mean square distance from "
+               "their centre of mass, or from the axis or symmetry plane)",
+        .choices = {"z", "x", "y", "r"}},
+       {.name = "boundary",
+        .kind = choice,
+        .doc = "relax: what the nodes of free sides do; along walls and symmetry planes they slide either way",
+        .fallback = "lagrangian",
+        .choices = {"lagrangian", "fixed"}},
+       {.name = "sweeps", .kind = integer, .doc = "relax: smoothing sweeps at each remap", .range = {1, 1000}, .fallback = "4"}}};
   return spec;
 }
 

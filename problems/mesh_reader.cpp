@@ -150,6 +150,8 @@ void check_inflow(Context c, const Section& in, std::size_t axis, std::size_t s,
     c.deck.fail(*in.node("type"),
                 "nothing flows into a lagrangian mesh: only a remap brings material in",
                 "motion.policy = \"eulerian\", or a wall with this velocity");
+  } else if (c.scene.motion.policy == MotionPolicy::relax && !c.scene.motion.fixed_boundary) {
+    c.deck.fail(*in.node("type"), "nothing flows in where the mesh's boundary goes with the material", "motion.boundary = \"fixed\"");
   } else if (!((s == 0 ? 1 : -1) * side.velocity[axis] > 0)) {
     c.deck.fail(*in.node("velocity"),
                 fmt::format("{:g} m/s along {} does not point into the mesh",

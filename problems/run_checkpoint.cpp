@@ -25,6 +25,9 @@ template <int Dim, class BlockType, class Visit> void visit_fields(BlockType& b,
     }
   }
   visit("volume", b.volume.data());
+  for (std::size_t d = 0; d < Dim && b.motion.moves_target(); ++d) {
+    visit(fmt::format("target_{}", d), b.target[d].data());
+  }
 }
 
 std::vector<double> pack(const Ledger& l) {

@@ -184,7 +184,7 @@ template <int Dim>
 std::array<int, 3> find_cell(const Block<Dim>& b, const std::array<double, 3>& at) {
   const Grid& g = b.grid;
   std::array<int, 3> cell = {0, 0, 0};
-  if (b.motion.remaps()) {
+  if (b.motion.remaps() && b.motion.policy != MotionPolicy::relax) {
     const auto& lines = b.motion.policy == MotionPolicy::follow ? b.position : b.target;
     for (int axis = 0; axis < Dim; ++axis) {
       const auto a = static_cast<std::size_t>(axis);

@@ -31,14 +31,19 @@ void read_ambient(Deck& deck, DeckNode& node, SceneSpec& scene) {
 
 void read_motion(Deck& deck, DeckNode& node, Motion& motion) {
   const Section in = read_section(deck, node, scene_keys::motion());
-  if (in.text("policy") == "relax") {
-    deck.fail(*in.node("policy"),
-              fmt::format("\"{}\" is not available yet", in.text("policy")),
-              "lagrangian, eulerian or follow");
-    return;
-  }
   motion.policy = static_cast<MotionPolicy>(in.choice("policy"));
   motion.remap_every = in.integer("remap_every");
+  motion.remap_quality = in.number("remap_quality", 0);
+  motion.fixed_boundary = in.text("boundary") == "fixed";
+  motion.sweeps = in.integer("sweeps");
+  if (motion.remap_quality > 0 && !in.node("remap_every")->defaulted) {
+    deck.fail_key(*in.node("remap_quality"), "contradicts `remap_every`: a remap is due by one or the other");
+  }
+  for (const char* key : {"boundary", "sweeps"}) {
+    if (motion.policy != MotionPolicy::relax && !in.node(key)->defaulted) {
+      deck.fail_key(*in.node(key), "only with `policy = \"relax\"`");
+    }
+  }
 }
 
 int body_called(const SceneSpec& scene, const std::string& name) {
@@ -70,12 +75,26 @@ std::vector<int> listed_bodies(Deck& deck, DeckNode& list, const SceneSpec& scen
   return bodies;
 }
 
+/// Axes by name, as indices; those the scene does not have are reported.
+std::vector<std::size_t> listed_axes(Deck& deck, const Section& in, const char* key, const std::vector<std::string>& names) {
+  std::vector<std::size_t> axes;
+  for (const std::string& axis : in.texts(key)) {
+    const auto at = std::find(names.begin(), names.end(), axis);
+    if (at == names.end()) {
+      deck.fail(*in.node(key), fmt::format("no axis {} in a scene with the axes {}", axis, one_of(names)), one_of(names));
+      continue;
+    }
+    axes.push_back(static_cast<std::size_t>(at - names.begin()));
+  }
+  return axes;
+}
+
 /// What a following mesh goes with, once there are bodies; its outer sides along that way must let matter through.
 void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene) {
   Section in(node, scene_keys::motion());
   const std::vector<std::string> names = axis_names(scene.geometry);
   if (scene.motion.policy != MotionPolicy::follow) {
-    for (const char* key : {"bodies", "axes"}) {
+    for (const char* key : {"bodies", "axes", "stretch"}) {
       if (in.has(key)) {
         deck.fail_key(*in.node(key), "only with `policy = \"follow\"`");
       }
@@ -111,13 +130,15 @@ void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene) {
   if (std::find(m.leaders.begin(), m.leaders.end(), scene.background) != m.leaders.end()) {
     deck.fail(*in.node("bodies"), "the background is of a material of theirs", "bodies of other materials");
   }
-  for (const std::string& axis : in.texts("axes")) {
-    const auto at = std::find(names.begin(), names.end(), axis);
-    if (at == names.end()) {
-      deck.fail(*in.node("axes"), fmt::format("no axis {} in a {} scene", axis, name_of(scene.geometry)), one_of(names));
-      continue;
+  for (const std::size_t d : listed_axes(deck, in, "axes", names)) {
+    m.axes[d] = true;
+  }
+  for (const std::size_t d : listed_axes(deck, in, "stretch", names)) {
+    m.stretches[d] = true; // about the middle, which then must go along, or from a plane
+    m.axes[d] = m.axes[d] || scene.boundaries[d][0].kind != BoundaryKind::symmetry;
+    if (scene.boundaries[d][1].kind != BoundaryKind::free && scene.boundaries[d][1].kind != BoundaryKind::absorbing) {
+      deck.fail(*in.node("stretch"), fmt::format("the mesh would grow along {}, where its upper side is neither free nor absorbing", names[d]), "a free or absorbing side");
     }
-    m.axes[static_cast<std::size_t>(at - names.begin())] = true;
   }
   for (std::size_t d = 0; d < names.size(); ++d) {
     const auto lets_through = [&](std::size_t side) {
@@ -129,7 +150,7 @@ void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene) {
       deck.fail({node.place, node.key + ".axes", fmt::format("the mesh would go along {}, where its sides are neither free nor absorbing", names[d]), "free or absorbing sides along the way"});
     }
   }
-  if (deck.errors().size() == errors_before && std::none_of(m.axes.begin(), m.axes.end(), [](bool moves) { return moves; })) {
+  if (deck.errors().size() == errors_before && m.axes == std::array<bool, 3>{} && m.stretches == std::array<bool, 3>{}) {
     deck.fail({node.place, node.key + ".axes", "no way to go: none of the bodies has a velocity", "axes, or bodies that move"});
   }
 }

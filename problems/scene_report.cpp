@@ -125,6 +125,8 @@ std::string numerics_line(const SceneSpec& scene) {
   const std::string motion =
       scene.motion.policy == MotionPolicy::lagrangian
           ? "never remapped"
+      : scene.motion.remap_quality > 0
+          ? fmt::format("remapped when a cell's shape falls below {:g}", scene.motion.remap_quality)
           : fmt::format("remapped every {} step(s)", scene.motion.remap_every);
   std::string goes;
   if (scene.motion.policy == MotionPolicy::follow) {
@@ -133,8 +135,12 @@ std::string numerics_line(const SceneSpec& scene) {
       goes += (goes.empty() ? ", the mesh goes with " : " ") + scene.materials[static_cast<std::size_t>(m)].name;
     }
     for (std::size_t d = 0; d < names.size(); ++d) {
-      goes += scene.motion.axes[d] ? " along " + names[d] : "";
+      goes += scene.motion.axes[d] ? fmt::format(" along {}", names[d]) : "";
+      goes += scene.motion.stretches[d] ? fmt::format(", stretched along {}", names[d]) : "";
     }
+  }
+  if (scene.motion.policy == MotionPolicy::relax) {
+    goes = fmt::format(", smoothed by {} sweeps, boundary {}", scene.motion.sweeps, scene.motion.fixed_boundary ? "fixed" : "lagrangian");
   }
   std::string slides;
   for (const int m : scene.sliding) {

@@ -1,0 +1,20 @@
+// Quality of a mesh: how far its cells' shapes are from those of another mesh, mean ratio of the map between them.
+//
+// At each corner of a cell the edges A (columns) are those R of the reference mesh, mapped by T = A R^-1; its quality is
+//   q = d det(T)^(2/d) / |T|_F^2,
+// 1 where T is a rotation times a scale, falling to 0 as the corner collapses (a stretch by s against the rest: 2 / (s + 1/s) in
+// 2D), below 0 where it has turned inside out. P. Knupp, Algebraic mesh quality metrics, SIAM J. Sci. Comput. 23 (2001).
+#pragma once
+
+#include "core/grid.hpp"
+#include "core/threads.hpp"
+
+#include <array>
+
+namespace ballast {
+
+/// Least quality of the mesh's corners against the reference mesh. In RZ of the meridian plane.
+template <int Dim>
+double mesh_quality(const Grid& grid, const std::array<RowField, Dim>& mesh, const std::array<RowField, Dim>& reference, ThreadPool& pool);
+
+} // namespace ballast

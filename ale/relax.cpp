@@ -1,0 +1,191 @@
+#include "ale/relax.hpp"
+
+#include "ale/mesh_quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+
+namespace {
+
+/// What holds a node of the block's boundary.
+enum class Hold { nothing, plane, place };
+
+template <int Dim> Hold hold_at(const Block<Dim>& b, int axis, int index) {
+  const int last = b.grid.cells[static_cast<std::size_t>(axis)];
+  if (index > 0 && index < last) {
+    return Hold::nothing;
+  }
+  return b.boundary.fixes_normal_velocity(axis, index == 0 ? 0 : 1) ? Hold::plane : Hold::place;
+}
+
+/// Along which axes a node is smoothed, and which of its components; none where it is held in place.
+struct Freedom {
+  std::array<bool, 3> along = {false, false, false}, component = {true, true, true};
+  bool any = false;
+};
+template <int Dim> Freedom freedom_of(const Block<Dim>& b, const std::array<int, 3>& index) {
+  Freedom f;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const Hold hold = hold_at(b, axis, index[a]);
+    if (hold == Hold::place) {
+      return {};
+    }
+    f.along[a] = hold == Hold::nothing;
+    f.component[a] = f.component[a] && hold == Hold::nothing;
+    f.any = f.any || f.along[a];
+  }
+  return f;
+}
+
+/// Calls body(j, k) for every row of nodes, in slabs by thread.
+template <int Dim, class Body> void for_each_node_row(const Grid& g, ThreadPool& pool, Body&& body) {
+  const int planes = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
+  parallel_ranges(pool, planes, [&](int begin, int end, int) {
+    for (int plane = begin; plane < end; ++plane) {
+      for (int q = 0; q < rows; ++q) {
+        body(Dim == 3 ? q : plane, Dim == 3 ? plane : 0);
+      }
+    }
+  });
+}
+
+/// One row of a sweep: u_next = (u + mean over the axes along which the nodes are free) / 2 where free, else u.
+template <int Dim>
+void smooth_row(const Block<Dim>& b, const std::array<RowField, Dim>& u, std::array<RowField, Dim>& next, int j, int k) {
+  const Grid& g = b.grid;
+  const int r = g.node_row(j, k), n = g.cells[0];
+  const auto smooth = [&](int first, int last, const Freedom& f) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double* from = u[d].row(r);
+      double* to = next[d].row(r);
+      std::copy(from + first, from + last + 1, to + first);
+      if (!f.any || !f.component[d]) {
+        continue;
+      }
+      int axes = 0;
+      for (std::size_t a = 0; a < Dim; ++a) {
+        axes += f.along[a] ? 1 : 0;
+      }
+      const double part = 0.5 / axes;
+      for (std::size_t a = 0; a < Dim; ++a) {
+        if (!f.along[a]) {
+          continue;
+        }
+        const int stride = g.node_row_stride(static_cast<int>(a)), step = a == 0 ? 1 : 0;
+        const double *low = u[d].row(r - stride) - step, *high = u[d].row(r + stride) + step, *w = b.low_weight[a].row(r);
+#pragma omp simd
+        for (int i = first; i <= last; ++i) {
+          to[i] += part * (w[i] * (low[i] - from[i]) + (1 - w[i]) * (high[i] - from[i]));
+        }
+      }
+    }
+  };
+  for (const int i : {0, n}) {
+    smooth(i, i, freedom_of(b, {i, j, k}));
+  }
+  smooth(1, n - 1, freedom_of(b, {1, j, k}));
+}
+
+/// The boundary nodes of a mesh that stays at its edges: at home, but free along a plane.
+template <int Dim> void hold_at_home(const Block<Dim>& b, std::array<RowField, Dim>& u, ThreadPool& pool) {
+  const Grid& g = b.grid;
+  for_each_node_row<Dim>(g, pool, [&](int j, int k) {
+    for (int i = 0; i <= g.cells[0]; ++i) {
+      const std::array<int, 3> index = {i, j, k};
+      bool held = false;
+      for (int axis = 0; axis < Dim; ++axis) {
+        held = held || hold_at(b, axis, index[static_cast<std::size_t>(axis)]) != Hold::nothing;
+      }
+      if (!held) {
+        continue;
+      }
+      const Freedom f = freedom_of(b, index);
+      for (std::size_t d = 0; d < Dim; ++d) {
+        double& value = u[d].row(g.node_row(j, k))[i];
+        value = f.any && f.component[d] ? value : 0.0;
+      }
+    }
+  });
+}
+
+template <int Dim> void blend(const Block<Dim>& b, std::array<RowField, Dim>& target, const std::array<RowField, Dim>& u, double part, ThreadPool& pool) {
+  const Grid& g = b.grid;
+  for_each_node_row<Dim>(g, pool, [&](int j, int k) {
+    const int r = g.node_row(j, k);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double *x = b.position[d].row(r), *from = b.home[d].row(r), *v = u[d].row(r);
+      double* to = target[d].row(r);
+      for (int i = 0; i <= g.cells[0]; ++i) {
+        const double smooth = from[i] + v[i];
+        to[i] = part == 1 ? smooth : x[i] + part * (smooth - x[i]);
+      }
+    }
+  });
+}
+
+} // namespace
+
+template <int Dim> void weigh_neighbours(Block<Dim>& b) {
+  const Grid& g = b.grid;
+  b.low_weight.fill(RowField::of_nodes(g, 0.5));
+  ThreadPool one(1);
+  for_each_node_row<Dim>(g, one, [&](int j, int k) {
+    const std::array<int, 3> row = {0, j, k};
+    const int r = g.node_row(j, k);
+    for (std::size_t a = 0; a < Dim; ++a) {
+      if (a > 0 && (row[a] == 0 || row[a] == g.cells[a])) {
+        continue;
+      }
+      const int stride = g.node_row_stride(static_cast<int>(a)), step = a == 0 ? 1 : 0;
+      for (int i = step; i <= g.cells[0] - step; ++i) {
+        double below = 0, above = 0;
+        for (std::size_t d = 0; d < Dim; ++d) {
+          const double x = b.home[d].row(r)[i];
+          below += std::pow(x - b.home[d].row(r - stride)[i - step], 2);
+          above += std::pow(b.home[d].row(r + stride)[i + step] - x, 2);
+        }
+        b.low_weight[a].row(r)[i] = std::sqrt(above) / (std::sqrt(below) + std::sqrt(above));
+      }
+    }
+  });
+}
+
+template <int Dim> void relax_target(Block<Dim>& b, ThreadPool& pool) {
+  const Grid& g = b.grid;
+  // The step's next_position and next_velocity are free between steps.
+  std::array<RowField, Dim>&u = b.next_position, &next = b.next_velocity;
+  for_each_node_row<Dim>(g, pool, [&](int j, int k) {
+    const int r = g.node_row(j, k);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      for (int i = 0; i <= g.cells[0]; ++i) {
+        u[d].row(r)[i] = b.position[d].row(r)[i] - b.home[d].row(r)[i];
+      }
+    }
+  });
+  if (b.motion.fixed_boundary) {
+    hold_at_home<Dim>(b, u, pool);
+  }
+  for (int sweep = 0; sweep < b.motion.sweeps; ++sweep) {
+    for_each_node_row<Dim>(g, pool, [&](int j, int k) { smooth_row<Dim>(b, u, next, j, k); });
+    u.swap(next);
+  }
+  constexpr double worst = 0.02, smallest_part = 1.0 / 64;
+  const double enough = std::min(worst, 0.5 * mesh_quality<Dim>(g, b.position, b.home, pool));
+  for (double part = 1; part >= smallest_part; part *= 0.5) {
+    blend<Dim>(b, b.target, u, part, pool);
+    if (mesh_quality<Dim>(g, b.target, b.home, pool) > enough) {
+      return;
+    }
+  }
+  blend<Dim>(b, b.target, u, 0, pool);
+}
+
+template void weigh_neighbours<2>(Block<2>&);
+template void weigh_neighbours<3>(Block<3>&);
+template void relax_target<2>(Block<2>&, ThreadPool&);
+template void relax_target<3>(Block<3>&, ThreadPool&);
+
+} // namespace ballast
