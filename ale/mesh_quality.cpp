@@ -27,7 +27,9 @@ struct Edges2 {
   return 2 * det_a * det_r / norm;
 }
 
-double row_quality(const Grid& g, const std::array<RowField, 2>& mesh, const std::array<RowField, 2>& reference, int j, int) {
+} // namespace
+
+void row_quality(const Grid& g, const std::array<RowField, 2>& mesh, const std::array<RowField, 2>& reference, int j, int, double* quality) {
   const double *x[2][2], *y[2][2];
   for (std::size_t d = 0; d < 2; ++d) {
     for (int q = 0; q < 2; ++q) {
@@ -35,17 +37,19 @@ double row_quality(const Grid& g, const std::array<RowField, 2>& mesh, const std
       y[d][q] = reference[d].row(g.node_row(j + q, 0));
     }
   }
-  double least = 1;
-#pragma omp simd reduction(min : least)
+#pragma omp simd
   for (int i = 0; i < g.cells[0]; ++i) {
+    double least = 1;
 #pragma GCC unroll 4
     for (int c = 0; c < 4; ++c) {
       const double q = corner_quality(edges(x, i, c & 1, c >> 1), edges(y, i, c & 1, c >> 1));
       least = q < least ? q : least;
     }
+    quality[i] = least;
   }
-  return least;
 }
+
+namespace {
 
 struct Edges3 {
   double e[3][3]; ///< [axis][component]
@@ -89,7 +93,9 @@ double corner_quality(const Edges3& a, const Edges3& r) {
   return det > 0 ? 3 * std::cbrt(det * det) / norm : det;
 }
 
-double row_quality(const Grid& g, const std::array<RowField, 3>& mesh, const std::array<RowField, 3>& reference, int j, int k) {
+} // namespace
+
+void row_quality(const Grid& g, const std::array<RowField, 3>& mesh, const std::array<RowField, 3>& reference, int j, int k, double* quality) {
   Rows3 x{}, y{};
   for (std::size_t d = 0; d < 3; ++d) {
     for (int q = 0; q < 4; ++q) {
@@ -97,25 +103,24 @@ double row_quality(const Grid& g, const std::array<RowField, 3>& mesh, const std
       y[d][static_cast<std::size_t>(q)] = reference[d].row(g.node_row(j + (q & 1), k + (q >> 1)));
     }
   }
-  double least = 1;
   for (int i = 0; i < g.cells[0]; ++i) {
+    quality[i] = 1;
     for (int c = 0; c < 8; ++c) {
-      least = std::min(least, corner_quality(edges(x, i, c), edges(y, i, c)));
+      quality[i] = std::min(quality[i], corner_quality(edges(x, i, c), edges(y, i, c)));
     }
   }
-  return least;
 }
-
-} // namespace
 
 template <int Dim>
 double mesh_quality(const Grid& g, const std::array<RowField, Dim>& mesh, const std::array<RowField, Dim>& reference, ThreadPool& pool) {
   std::vector<double> least(static_cast<std::size_t>(g.slabs()), 1.0);
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    std::vector<double> row(static_cast<std::size_t>(g.cells[0]));
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
-        least[static_cast<std::size_t>(s)] = std::min(least[static_cast<std::size_t>(s)], row_quality(g, mesh, reference, j, k));
+        row_quality(g, mesh, reference, j, k, row.data());
+        least[static_cast<std::size_t>(s)] = std::min(least[static_cast<std::size_t>(s)], *std::min_element(row.begin(), row.end()));
       }
     }
   });

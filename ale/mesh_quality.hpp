@@ -13,6 +13,10 @@
 
 namespace ballast {
 
+/// Quality of each cell of row (j, k), the least of its corners, against the reference mesh.
+void row_quality(const Grid& grid, const std::array<RowField, 2>& mesh, const std::array<RowField, 2>& reference, int j, int k, double* quality);
+void row_quality(const Grid& grid, const std::array<RowField, 3>& mesh, const std::array<RowField, 3>& reference, int j, int k, double* quality);
+
 /// Least quality of the mesh's corners against the reference mesh. In RZ of the meridian plane.
 template <int Dim>
 double mesh_quality(const Grid& grid, const std::array<RowField, Dim>& mesh, const std::array<RowField, Dim>& reference, ThreadPool& pool);

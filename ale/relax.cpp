@@ -111,19 +111,42 @@ template <int Dim> void hold_at_home(const Block<Dim>& b, std::array<RowField, D
   });
 }
 
-template <int Dim> void blend(const Block<Dim>& b, std::array<RowField, Dim>& target, const std::array<RowField, Dim>& u, double part, ThreadPool& pool) {
-  const Grid& g = b.grid;
-  for_each_node_row<Dim>(g, pool, [&](int j, int k) {
-    const int r = g.node_row(j, k);
+template <int Dim> void go_to(const Block<Dim>& b, const std::array<RowField, Dim>& u, std::array<RowField, Dim>& target, ThreadPool& pool) {
+  for_each_node_row<Dim>(b.grid, pool, [&](int j, int k) {
+    const int r = b.grid.node_row(j, k);
     for (std::size_t d = 0; d < Dim; ++d) {
-      const double *x = b.position[d].row(r), *from = b.home[d].row(r), *v = u[d].row(r);
-      double* to = target[d].row(r);
-      for (int i = 0; i <= g.cells[0]; ++i) {
-        const double smooth = from[i] + v[i];
-        to[i] = part == 1 ? smooth : x[i] + part * (smooth - x[i]);
+      for (int i = 0; i <= b.grid.cells[0]; ++i) {
+        target[d].row(r)[i] = b.home[d].row(r)[i] + u[d].row(r)[i];
       }
     }
   });
+}
+
+/// The nodes of cells of less quality than `enough` go back to where they are. Number of such cells. In order, by one
+/// thread: cells share nodes.
+template <int Dim> long stay_at_bad_cells(const Block<Dim>& b, double enough, std::array<RowField, Dim>& target) {
+  const Grid& g = b.grid;
+  std::vector<std::array<int, 3>> bad;
+  std::vector<double> quality(static_cast<std::size_t>(g.cells[0]));
+  for (int k = 0; k < g.cells[2]; ++k) {
+    for (int j = 0; j < g.cells[1]; ++j) {
+      row_quality(g, target, b.home, j, k, quality.data());
+      for (int i = 0; i < g.cells[0]; ++i) {
+        if (!(quality[static_cast<std::size_t>(i)] > enough)) {
+          bad.push_back({i, j, k});
+        }
+      }
+    }
+  }
+  for (const auto& [i, j, k] : bad) {
+    for (int c = 0; c < (1 << Dim); ++c) {
+      const int r = g.node_row(j + (c >> 1 & 1), k + (c >> 2));
+      for (std::size_t d = 0; d < Dim; ++d) {
+        target[d].row(r)[i + (c & 1)] = b.position[d].row(r)[i + (c & 1)];
+      }
+    }
+  }
+  return static_cast<long>(bad.size());
 }
 
 } // namespace
@@ -172,15 +195,19 @@ template <int Dim> void relax_target(Block<Dim>& b, ThreadPool& pool) {
     for_each_node_row<Dim>(g, pool, [&](int j, int k) { smooth_row<Dim>(b, u, next, j, k); });
     u.swap(next);
   }
-  constexpr double worst = 0.02, smallest_part = 1.0 / 64;
+  go_to<Dim>(b, u, b.target, pool);
+  constexpr double worst = 0.02;
   const double enough = std::min(worst, 0.5 * mesh_quality<Dim>(g, b.position, b.home, pool));
-  for (double part = 1; part >= smallest_part; part *= 0.5) {
-    blend<Dim>(b, b.target, u, part, pool);
-    if (mesh_quality<Dim>(g, b.target, b.home, pool) > enough) {
+  if (mesh_quality<Dim>(g, b.target, b.home, pool) > enough) {
+    return;
+  }
+  constexpr int tries = 16; // each lets go of a wider neighbourhood of the bad cells
+  for (int n = 0; n < tries; ++n) {
+    if (stay_at_bad_cells<Dim>(b, enough, b.target) == 0) {
       return;
     }
   }
-  blend<Dim>(b, b.target, u, 0, pool);
+  b.target = b.position;
 }
 
 template void weigh_neighbours<2>(Block<2>&);

@@ -14,7 +14,8 @@ namespace ballast {
 /// Sets low_weight from home.
 template <int Dim> void weigh_neighbours(Block<Dim>& block);
 
-/// Brings target from position on to a smoothed mesh. Where that would turn a cell inside out it goes only part of the way.
+/// Brings target from position on to a smoothed mesh. The nodes of cells that this would turn inside out, or bring near it, stay
+/// where they are.
 template <int Dim> void relax_target(Block<Dim>& block, ThreadPool& pool);
 
 } // namespace ballast

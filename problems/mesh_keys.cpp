@@ -108,10 +108,9 @@ const SectionSpec& motion() {
         .choices = {"z", "x", "y", "r"}},
        {.name = "boundary",
         .kind = choice,
-        .doc = "relax: what the nodes of free sides do; along walls and symmetry planes they slide either way",
-        .fallback = "lagrangian",
+        .doc = "relax: what the nodes of free sides do, default lagrangian; along walls and symmetry planes they slide either way",
         .choices = {"lagrangian", "fixed"}},
-       {.name = "sweeps", .kind = integer, .doc = "relax: smoothing sweeps at each remap", .range = {1, 1000}, .fallback = "4"}}};
+       {.name = "sweeps", .kind = integer, .doc = "relax: smoothing sweeps at each remap, default 4", .range = {1, 1000}}}};
   return spec;
 }
 

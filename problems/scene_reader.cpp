@@ -34,13 +34,13 @@ void read_motion(Deck& deck, DeckNode& node, Motion& motion) {
   motion.policy = static_cast<MotionPolicy>(in.choice("policy"));
   motion.remap_every = in.integer("remap_every");
   motion.remap_quality = in.number("remap_quality", 0);
-  motion.fixed_boundary = in.text("boundary") == "fixed";
-  motion.sweeps = in.integer("sweeps");
-  if (motion.remap_quality > 0 && !in.node("remap_every")->defaulted) {
+  motion.fixed_boundary = in.has("boundary") && in.text("boundary") == "fixed";
+  motion.sweeps = in.has("sweeps") ? in.integer("sweeps") : motion.sweeps;
+  if (motion.remap_quality > 0 && motion.remap_every > 1) {
     deck.fail_key(*in.node("remap_quality"), "contradicts `remap_every`: a remap is due by one or the other");
   }
   for (const char* key : {"boundary", "sweeps"}) {
-    if (motion.policy != MotionPolicy::relax && !in.node(key)->defaulted) {
+    if (motion.policy != MotionPolicy::relax && in.has(key)) {
       deck.fail_key(*in.node(key), "only with `policy = \"relax\"`");
     }
   }

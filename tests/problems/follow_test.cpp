@@ -1,5 +1,6 @@
 // Laws of a mesh that follows: it goes where its bodies go, of them nothing is remapped, what it passes is carried through
 // and accounted for.
+#include "ale/follow.hpp"
 #include "ale/phases.hpp"
 #include "problems/build_scene.hpp"
 #include "problems/scene_reader.hpp"
@@ -32,6 +33,7 @@ constexpr const char* follows = R"(
 policy = "follow"
 bodies = ["ball"]
 )";
+const std::string gas_follows = "[motion]\npolicy = \"follow\"\nbodies = [\"gas\"]\n";
 
 // A ball in a void, away from everything.
 constexpr const char* alone = R"(
@@ -154,6 +156,41 @@ z = { from = "-9 mm", to = "13 mm", size = "0.5 mm" }
   EXPECT_GT(lag, 1e-5);
   EXPECT_NEAR(lag, -resting[0], 0.02 * lag); // the mesh slows down with the ball, the frame does not
   EXPECT_NEAR(moving[1], resting[1], 0.01 * resting[1]);
+}
+
+// A cylinder of gas in a void bursts: a window that stretches grows with it, so that most of it stays in.
+TEST(Follow, GrowsWithWhatItFollows) {
+  const auto deck = [](const std::string& stretch) {
+    return scene_of(R"(
+title = "cylinder of gas that bursts"
+geometry = "axisymmetric"
+end_time = "1 ms"
+ambient = { pressure = "0 Pa" }
+[[body]]
+name = "gas"
+material = "air"
+pressure = "1 atm"
+shape = { box = { from = ["0 mm", "-100 mm"], to = ["100 mm", "100 mm"] } }
+[mesh]
+r = { from = "0 mm", to = "150 mm", size = "10 mm" }
+z = { from = "-150 mm", to = "150 mm", size = "10 mm" }
+)", gas_follows + stretch);
+  };
+  const SceneSpec spec = deck("stretch = [\"r\", \"z\"]\n");
+  const double start = totals(build_scene<2>(spec, 1).blocks[0]).mass[0];
+  const Scene<2> scene = at_end(spec), window = at_end(deck("axes = [\"z\"]\n"));
+  const Block<2>& b = scene.blocks[0];
+  const Grid& g = b.grid;
+  const Bulk bulk = bulk_of(b, {0});
+  for (std::size_t d = 0; d < 2; ++d) {
+    const double stretch = b.position[d].row(g.node_row(d == 1 ? g.cells[1] : 0, 0))[d == 0 ? g.cells[0] : 0] / 0.15;
+    EXPECT_GT(stretch, 4); // the front goes at 5 c = 1.7 km/s, the window at its mean
+    EXPECT_NEAR(stretch, std::sqrt(bulk.spread[d] / b.motion.start.spread[d]), 0.02 * stretch);
+  }
+  EXPECT_EQ(b.position[0].row(g.node_row(3, 0))[0], 0);
+  EXPECT_NEAR(totals(b).mass[0] + scene.ledger.mass_out[0], start, 1e-12 * start);
+  EXPECT_GT(window.ledger.mass_out[0], 0.9 * start);
+  EXPECT_LT(scene.ledger.mass_out[0], 0.15 * start); // the thin gas of the front runs ahead of the mean
 }
 
 } // namespace

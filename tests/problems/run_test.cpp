@@ -174,7 +174,12 @@ std::string following(std::string deck) {
   return deck + "[motion]\npolicy = \"follow\"\nbodies = [\"ball\"]\n";
 }
 
+std::string relaxing(std::string deck, const std::string& due) {
+  return deck + "[motion]\npolicy = \"relax\"\nboundary = \"fixed\"\n" + due + "\n";
+}
+
 TEST(Run, SameBitsForAnyNumberOfThreads) {
+  same_bits<2>(relaxing(deck_of(lead_in_void), "remap_every = 1"));
   same_bits<2>(following(deck_of(sliding(lead_in_void))));
   same_bits<2>(deck_of(lead_in_void));
   same_bits<2>(open_deck);
@@ -210,6 +215,8 @@ template <int Dim> void restarts(const SceneSpec& spec) {
 }
 
 TEST(Run, RestartGoesOnBitForBit) {
+  restarts<2>(scene_of(relaxing(deck_of(lead_in_void), "remap_every = 2")));
+  restarts<2>(scene_of(relaxing(deck_of(lead_in_void), "remap_quality = 0.98")));
   restarts<2>(scene_of(following(deck_of(sliding(lead_in_void)))));
   restarts<2>(scene_of(deck_of(lead_in_void)));
   restarts<2>(scene_of(deck_of(sliding(lead_in_void))));

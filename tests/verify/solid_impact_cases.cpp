@@ -50,10 +50,14 @@ Rod taylor_rod(MotionPolicy motion, int across) {
   s.materials = {taylor_copper()};
   s.numerics.spall = false;
   s.motion = {motion, 1};
-  const bool lagrangian = motion == MotionPolicy::lagrangian;
-  const double r_end = lagrangian ? radius : h * std::ceil(9e-3 / h);
+  const bool fitted = motion == MotionPolicy::lagrangian || motion == MotionPolicy::relax, follows = motion == MotionPolicy::follow;
+  if (follows) { // from the wall and the axis outwards
+    s.motion.leaders = {0};
+    s.motion.stretches = {true, true, false};
+  }
+  const double r_end = fitted ? radius : h * std::ceil(9e-3 / h);
   const int nz = static_cast<int>(std::lround(length / h));
-  const int above = lagrangian ? 0 : 4;
+  const int above = fitted ? 0 : follows ? nz / 2 : 4; // the mesh shrinks more than the rod
   s.mesh_lines[0] = uniform(0, r_end, static_cast<int>(std::lround(r_end / h)));
   s.mesh_lines[1] = uniform(0, length * (nz + above) / nz, nz + above);
   s.bodies.push_back({"rod", 0, Shape{Box{{0, 0, -1}, {radius, length, 1}}}, {0, -speed, 0}, 8930, 0, 0});
@@ -80,6 +84,18 @@ void taylor_case(VerifyReport& r) {
   r.close("Eul 16 across: length (mm)", lag.length, 0.02, eul.length);
   r.close("Eul 16 across: foot radius (mm)", lag.foot, 0.02, eul.foot);
   conserves(r, "Eul 16 across", eul.run);
+  const Rod relaxed = taylor_rod(MotionPolicy::relax, 16);
+  r.close("relax 16 across: length (mm)", lag.length, 0.005, relaxed.length);
+  r.close("relax 16 across: foot radius (mm)", lag.foot, 0.005, relaxed.foot);
+  conserves(r, "relax 16 across", relaxed.run);
+  const Rod followed = taylor_rod(MotionPolicy::follow, 16);
+  r.close("follow 16 across: length (mm)", lag.length, 0.02, followed.length);
+  r.close("follow 16 across: foot radius (mm)", lag.foot, 0.02, followed.foot);
+  conserves(r, "follow 16 across", followed.run);
+  r.note("steps: Lag", static_cast<double>(lag.run.clock.step));
+  r.note("steps: relax", static_cast<double>(relaxed.run.clock.step));
+  r.note("steps: Eul", static_cast<double>(eul.run.clock.step));
+  r.note("steps: follow", static_cast<double>(followed.run.clock.step));
 }
 
 /// The M80 of problems/m80_tissue.toml through empty space: 285 mm at 823 m/s.
