@@ -2,6 +2,8 @@
 // through and main turns them into a message and a status.
 #pragma once
 
+#include "problems/exact_solution.hpp"
+
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@ struct RunOptions {
   std::vector<std::string> settings; ///< --set key.path=value
   int threads = 0;                   ///< 0: as many as the machine has
   std::string restart;               ///< checkpoint to go on from, empty: start new
+  ExactSolver exact = {};            ///< measures the end where the scene's exact solution is known
 };
 
 struct VerifyOptions {
@@ -33,10 +36,12 @@ struct CheckOptions {
 struct StudyOptions {
   std::string deck;
   std::vector<std::string> vary;      ///< "key=v1,v2"
+  std::vector<std::string> cases;     ///< "name: deck=FILE; key=value; ...": a first variation of decks and keys together
   std::vector<std::string> settings;  ///< --set, for all
-  std::string reference = "finest";   ///< or a deck
+  std::string reference = "finest";   ///< or a deck, or "exact", or the name of a case
   std::string out;                    ///< folder; empty: studies/<deck's name>
   int jobs = 1, threads = 0;          ///< runs at once; threads of each, 0: the machine's shared by the jobs
+  ExactSolver exact = {};             ///< what `--reference exact` asks
 };
 
 int run_command(const RunOptions& options);

@@ -33,6 +33,7 @@ int dispatch(int argc, char** argv) {
   int result = 0;
 
   ballast::RunOptions run;
+  run.exact = ballast::exact_solution_of;
   CLI::App* sub = word(app, "run", "run a deck", result, [&] { return ballast::run_command(run); });
   sub->add_option("deck", run.deck, "the deck, DECK.toml")->required();
   sub->add_option("--out", run.out, "run directory");
@@ -62,6 +63,7 @@ int dispatch(int argc, char** argv) {
   sub->add_option("--threads", verify.threads, "threads; default all")->check(CLI::Range(1, 4096));
 
   ballast::StudyOptions study;
+  study.exact = ballast::exact_solution_of;
   sub = word(app, "study", "run a deck over a grid of key values: cost and error of each", result, [&] {
     std::string folder;
     const int code = ballast::study_command(study, folder);
@@ -71,11 +73,13 @@ int dispatch(int argc, char** argv) {
   });
   sub->add_option("deck", study.deck, "the deck, DECK.toml")->required();
   sub->add_option("--vary", study.vary, "key.path=value,value,...; keys joined by + vary together; may be repeated: all combinations")
-      ->required()
+      ->expected(1)
+      ->take_all();
+  sub->add_option("--case", study.cases, "\"NAME: deck=FILE; key.path=value; ...\": runs that differ in more than a key; deck and keys may be left out; with --vary: all combinations")
       ->expected(1)
       ->take_all();
   sub->add_option("--set", study.settings, "key.path=value, for all runs; may be repeated")->expected(1)->take_all();
-  sub->add_option("--reference", study.reference, "what errors are against: finest (most cells) or a deck, REFERENCE.toml");
+  sub->add_option("--reference", study.reference, "what errors are against: finest (most cells), exact (known for Riemann problems and plate impact), a case, or a deck, REFERENCE.toml");
   sub->add_option("--out", study.out, "folder of the study; what it holds of these runs is kept");
   sub->add_option("--jobs", study.jobs, "runs at once")->check(CLI::Range(1, 4096));
   sub->add_option("--threads", study.threads, "threads of each run; default: the machine's shared by the jobs")->check(CLI::Range(1, 4096));

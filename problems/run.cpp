@@ -22,9 +22,9 @@ int run_command(const RunOptions& options) {
   fmt::print("{}", scene_table(read.scene));
   fmt::print("run directory {}, {} thread{}\n", dir.string(), threads, threads == 1 ? "" : "s");
   if (read.scene.geometry == Geometry::three_d) {
-    return RunSession<3>(read, dir, threads, options.restart).run();
+    return RunSession<3>(read, dir, threads, options.restart, options.exact).run();
   }
-  return RunSession<2>(read, dir, threads, options.restart).run();
+  return RunSession<2>(read, dir, threads, options.restart, options.exact).run();
 }
 
 int verify_command(const VerifyOptions& options) {

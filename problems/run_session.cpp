@@ -34,7 +34,7 @@ double seconds_since(std::chrono::steady_clock::time_point t) {
 }
 
 template <int Dim>
-RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& dir, int threads, const std::string& restart)
+RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& dir, int threads, const std::string& restart, const ExactSolver& exact)
     : read_(read), spec_(read.scene), dir_(dir), scene_(build_scene<Dim>(read.scene, threads)), slots_(slot_map(read.scene)),
       restarted_(!restart.empty()), terminal_(isatty(STDOUT_FILENO) != 0) {
   clock_.end_time = spec_.end_time;
@@ -64,6 +64,8 @@ RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& 
       memory_.gauges.insert(memory_.gauges.end(), g.at.begin(), g.at.end());
     }
   }
+  std::string why_not;
+  exact_ = exact ? exact(spec_, why_not) : std::nullopt;
   gauge_peaks_.resize(spec_.gauges.size(), 0.0);
   gauge_velocity_.resize(spec_.gauges.size(), {0, 0, 0});
   std::filesystem::create_directories(dir_);

@@ -3,6 +3,7 @@
 
 #include "core/io/history.hpp"
 #include "core/io/vtk.hpp"
+#include "problems/exact_solution.hpp"
 #include "problems/run_checkpoint.hpp"
 #include "problems/run_measure.hpp"
 #include "problems/scene_reader.hpp"
@@ -29,7 +30,7 @@ double seconds_since(std::chrono::steady_clock::time_point t);
 
 template <int Dim> class RunSession : public Observer<Dim> {
 public:
-  RunSession(const ReadScene& read, const std::filesystem::path& dir, int threads, const std::string& restart);
+  RunSession(const ReadScene& read, const std::filesystem::path& dir, int threads, const std::string& restart, const ExactSolver& exact = {});
 
   /// Runs to the end, an interrupt or a failure; writes everything. Returns the exit status.
   int run();
@@ -56,6 +57,7 @@ private:
   SlotMap slots_;
   std::optional<io::HistoryWriter> history_;
   std::optional<io::VtkSeries> series_;
+  std::optional<ExactSolution> exact_;
   bool restarted_ = false, terminal_ = false;
   long start_step_ = 0;
   double dt_min_ = 1e300, dt_first_ = 0, peak_unaccounted_ = 0, cavity_peak_ = 0;

@@ -80,6 +80,12 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
   for (std::size_t q = 0; q < spec_.gauges.size(); ++q) {
     j["results"]["gauges"][spec_.gauges[q].name] = {{"peak_pressure_Pa", gauge_peaks_[q]}};
   }
+  if (exact_ && clock_.done()) {
+    j["exact_solution"] = exact_->law;
+    for (const auto& [name, error] : exact_errors(b, *exact_, clock_.time)) {
+      j["results"]["exact"][name] = error;
+    }
+  }
   io::write_text_atomically(dir_ / "summary.json", j.dump(2) + "\n");
 }
 

@@ -22,14 +22,24 @@ struct Variation {
 /// Throws Error. Commas inside quotes, brackets and braces separate nothing.
 Variation parse_variation(const std::string& text);
 
+/// --case "NAME: deck=FILE; KEY=VALUE; ...". Throws Error.
+struct StudyCase {
+  std::string name, deck; ///< deck: empty, the study's
+  std::vector<std::string> settings;
+};
+StudyCase parse_case(const std::string& text);
+
 struct StudyPoint {
   std::string name;                  ///< folder: "03_mesh.refine=2"
   std::vector<std::string> values;   ///< by variation
   std::vector<std::string> settings; ///< for --set
+  std::string deck;                  ///< empty: the study's
   std::string hash;                  ///< of the resolved deck
 };
 /// All combinations, the last variation fastest. Throws Error if a key is varied twice.
 std::vector<StudyPoint> study_points(const std::vector<Variation>& variations, const std::vector<std::string>& settings);
+/// Those of every case, one after the other; the case's name is the first value.
+std::vector<StudyPoint> study_points(const std::vector<StudyCase>& cases, const std::vector<Variation>& variations, const std::vector<std::string>& settings);
 
 /// What a run cost and gave.
 struct StudyRow {
@@ -49,6 +59,9 @@ StudyRow read_study_row(const std::filesystem::path& folder);
 /// Errors of `row` against `reference`: of every result both have, |x - x_ref| / |x_ref|; of the histories' columns that
 /// results come from, "L1 NAME" and "Linf NAME": mean and largest |x - x_ref| over the time both cover, by the largest |x_ref|.
 void measure_errors(StudyRow& row, const std::filesystem::path& folder, const StudyRow& reference, const std::filesystem::path& reference_folder);
+
+/// Errors of `row` against the exact solution, as its run measured them: "L1 density", ...
+void take_exact_errors(StudyRow& row);
 
 /// Writes study.csv, study.md and study.json (what `ballast report` draws) into `folder`.
 void write_study(const std::filesystem::path& folder, const StudyOptions& options, const std::vector<Variation>& variations,

@@ -79,6 +79,52 @@ Variation parse_variation(const std::string& text) {
   return v;
 }
 
+StudyCase parse_case(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  StudyCase out;
+  out.name = trimmed(text.substr(0, colon));
+  const auto refuse = [&] {
+    throw Error(fmt::format("--case {}: not understood\n  allowed: \"NAME: deck=FILE; key.path=value; ...\", for example \"window: motion.policy=\\\"follow\\\"\"", text));
+  };
+  if (out.name.empty() || out.name.find_first_of("=;") != std::string::npos) {
+    refuse();
+  }
+  for (const std::string& part : split(colon == std::string::npos ? std::string() : text.substr(colon + 1), ';')) {
+    const std::string setting = trimmed(part);
+    const std::size_t equals = setting.find('=');
+    if (setting.empty()) {
+      continue;
+    }
+    if (equals == std::string::npos || equals == 0 || equals + 1 == setting.size()) {
+      refuse();
+    }
+    if (trimmed(setting.substr(0, equals)) == "deck") {
+      out.deck = trimmed(setting.substr(equals + 1));
+    } else {
+      out.settings.push_back(setting);
+    }
+  }
+  return out;
+}
+
+std::vector<StudyPoint> study_points(const std::vector<StudyCase>& cases, const std::vector<Variation>& variations, const std::vector<std::string>& settings) {
+  std::vector<StudyPoint> all;
+  for (const StudyCase& c : cases) {
+    if (std::count_if(cases.begin(), cases.end(), [&](const StudyCase& other) { return other.name == c.name; }) > 1) {
+      throw Error(fmt::format("--case {}: the name is there twice", c.name));
+    }
+    std::vector<std::string> with = settings;
+    with.insert(with.end(), c.settings.begin(), c.settings.end());
+    for (StudyPoint& point : study_points(variations, with)) {
+      point.name = fmt::format("{:03}_{}{}", all.size(), plain(c.name), point.name.substr(3));
+      point.values.insert(point.values.begin(), c.name);
+      point.deck = c.deck;
+      all.push_back(std::move(point));
+    }
+  }
+  return all;
+}
+
 std::vector<StudyPoint> study_points(const std::vector<Variation>& variations, const std::vector<std::string>& settings) {
   constexpr std::size_t most = 10000;
   std::vector<std::string> keys;

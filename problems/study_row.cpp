@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -123,6 +124,17 @@ void measure_errors(StudyRow& row, const fs::path& folder, const StudyRow& refer
     if (weight > 0 && scale > nothing * of_columns[io::split_column_name(mine.names[c]).unit]) {
       row.errors["L1 " + name] = sum / weight / scale;
       row.errors["Linf " + name] = most / scale;
+    }
+  }
+}
+
+void take_exact_errors(StudyRow& row) {
+  for (const char* kind : {"L1", "Linf"}) {
+    for (const char* what : {"density", "velocity", "pressure"}) {
+      const auto at = row.results.find(fmt::format("exact.{}_{}", kind, what));
+      if (at != row.results.end()) {
+        row.errors[fmt::format("{} {}", kind, what)] = at->second;
+      }
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
@@ -31,12 +32,29 @@ struct Job {
   std::string deck;
 };
 
-/// What a point's folder says of an earlier run of the same deck.
+/// Of this program's file, FNV-1a 64 bit: what another build made is not this one's answer.
+std::string program_hash() {
+  std::ifstream in("/proc/self/exe", std::ios::binary);
+  std::uint64_t h = 1469598103934665603ULL;
+  std::vector<char> piece(1 << 16);
+  while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0) {
+    for (std::streamsize i = 0; i < in.gcount(); ++i) {
+      h = (h ^ static_cast<unsigned char>(piece[static_cast<std::size_t>(i)])) * 1099511628211ULL;
+    }
+  }
+  return fmt::format("{:016x}", h);
+}
+const std::string& this_program() {
+  static const std::string hash = program_hash();
+  return hash;
+}
+
+/// What a point's folder says of an earlier run of the same deck by the same program.
 enum class Left { nothing, done, part };
 Left left_by_earlier(const fs::path& folder, const std::string& hash) {
-  std::ifstream in(folder / "summary.json");
-  const auto j = nlohmann::json::parse(in, nullptr, false);
-  if (j.is_discarded() || j.value("deck_hash", "") != hash || !fs::exists(folder / "study.json")) {
+  std::ifstream in(folder / "summary.json"), cost(folder / "study.json");
+  const auto j = nlohmann::json::parse(in, nullptr, false), c = nlohmann::json::parse(cost, nullptr, false);
+  if (j.is_discarded() || j.value("deck_hash", "") != hash || c.is_discarded() || c.value("program", "") != this_program()) {
     return Left::nothing;
   }
   const std::string ended = j.value("ended", "");
@@ -56,7 +74,7 @@ Cost cost_of(const fs::path& folder) {
   return j.is_discarded() ? Cost{} : Cost{j.value("cpu_seconds", 0.0), j.value("peak_memory_bytes", 0.0)};
 }
 void write_cost(const fs::path& folder, const Cost& cost) {
-  const nlohmann::ordered_json j = {{"cpu_seconds", cost.cpu}, {"peak_memory_bytes", cost.peak_memory}};
+  const nlohmann::ordered_json j = {{"cpu_seconds", cost.cpu}, {"peak_memory_bytes", cost.peak_memory}, {"program", this_program()}};
   io::write_text_atomically(folder / "study.json", j.dump(2) + "\n");
 }
 
@@ -201,19 +219,70 @@ std::optional<std::size_t> finest(const std::vector<StudyRow>& rows) {
 
 } // namespace
 
+namespace {
+
+/// The points as jobs; every deck is sound before the first run, and has an exact solution where one is asked for.
+std::vector<Job> jobs_of(const StudyOptions& options, const std::vector<StudyCase>& cases, const std::vector<Variation>& variations) {
+  std::vector<Job> jobs;
+  for (StudyPoint& point : cases.empty() ? study_points(variations, options.settings) : study_points(cases, variations, options.settings)) {
+    const std::string deck = point.deck.empty() ? options.deck : point.deck;
+    const ReadScene read = read_scene(deck, point.settings);
+    point.hash = deck_hash(read);
+    std::string why_not;
+    if (options.reference == "exact" && !(options.exact && options.exact(read.scene, why_not))) {
+      throw Error(fmt::format("--reference exact: {} ({}): {}", deck, point.name, why_not));
+    }
+    jobs.push_back({std::move(point), deck});
+  }
+  return jobs;
+}
+
+/// Errors of all rows by what the options name; the name of the reference, empty: none finished.
+std::string measure(const StudyOptions& options, const fs::path& folder, const std::vector<StudyCase>& cases, std::vector<StudyRow>& rows) {
+  if (options.reference == "exact") {
+    for (StudyRow& row : rows) {
+      take_exact_errors(row);
+    }
+    return "the exact solution";
+  }
+  const bool by_case = std::any_of(cases.begin(), cases.end(), [&](const StudyCase& c) { return c.name == options.reference; });
+  std::optional<std::size_t> reference = options.reference == "finest" ? finest(rows) : std::optional(rows.size() - 1);
+  if (by_case) {
+    const auto at = std::find_if(rows.begin(), rows.end(), [&](const StudyRow& row) { return !row.values.empty() && row.values[0] == options.reference; });
+    reference = static_cast<std::size_t>(at - rows.begin());
+  }
+  if (!reference || rows[*reference].ended != "finished") {
+    return "";
+  }
+  for (StudyRow& row : rows) {
+    if (row.name != rows[*reference].name) {
+      measure_errors(row, folder / row.name, rows[*reference], folder / rows[*reference].name);
+    }
+  }
+  return rows[*reference].name;
+}
+
+} // namespace
+
 int study_command(const StudyOptions& options, std::string& out) {
   std::vector<Variation> variations;
   for (const std::string& text : options.vary) {
     variations.push_back(parse_variation(text));
   }
-  std::vector<Job> jobs;
-  for (StudyPoint& point : study_points(variations, options.settings)) {
-    point.hash = deck_hash(read_scene(options.deck, point.settings)); // every deck is sound before the first run
-    jobs.push_back({std::move(point), options.deck});
+  std::vector<StudyCase> cases;
+  Variation named{"case", {}, {}};
+  for (const std::string& text : options.cases) {
+    cases.push_back(parse_case(text));
+    named.values.push_back(cases.back().name);
   }
-  const bool by_deck = options.reference != "finest";
+  if (variations.empty() && cases.empty()) {
+    throw Error("study: nothing to vary\n  allowed: --vary key.path=value,value,... or --case \"NAME: key.path=value; ...\"");
+  }
+  std::vector<Job> jobs = jobs_of(options, cases, variations);
+  const bool by_deck = options.reference != "finest" && options.reference != "exact" &&
+                       std::find(named.values.begin(), named.values.end(), options.reference) == named.values.end();
   if (by_deck) {
-    StudyPoint reference{"reference", {}, {}, deck_hash(read_scene(options.reference))};
+    StudyPoint reference{.name = "reference", .values = {}, .settings = {}, .deck = {}, .hash = deck_hash(read_scene(options.reference))};
     jobs.push_back({std::move(reference), options.reference});
   }
   const fs::path folder = options.out.empty() ? fs::path("studies") / fs::path(options.deck).stem() : fs::path(options.out);
@@ -234,15 +303,11 @@ int study_command(const StudyOptions& options, std::string& out) {
     rows.back().name = job.point.name;
     rows.back().values = job.point.values;
   }
-  const std::optional<std::size_t> reference = by_deck ? std::optional(rows.size() - 1) : finest(rows);
-  if (reference && rows[*reference].ended == "finished") {
-    for (StudyRow& row : rows) {
-      if (row.name != rows[*reference].name) {
-        measure_errors(row, folder / row.name, rows[*reference], folder / rows[*reference].name);
-      }
-    }
+  const std::string reference = measure(options, folder, cases, rows);
+  if (!cases.empty()) {
+    variations.insert(variations.begin(), named);
   }
-  write_study(folder, options, variations, rows, reference ? rows[*reference].name : "");
+  write_study(folder, options, variations, rows, reference);
   const bool whole = std::all_of(rows.begin(), rows.end(), [](const StudyRow& row) { return row.ended == "finished" || row.ended == "failed"; });
   return static_cast<int>(!finished ? ExitStatus::interrupted : whole ? ExitStatus::finished : ExitStatus::numerical_failure);
 }

@@ -85,9 +85,14 @@ std::string cell(const std::string& text) {
 }
 
 std::string markdown(const StudyOptions& options, const std::vector<Variation>& variations, const std::vector<StudyRow>& rows, const std::string& reference) {
-  const auto results = names_of(rows, &StudyRow::results), errors = names_of(rows, &StudyRow::errors);
-  std::string out = fmt::format("# Study of {}\n\nReference: {}. Errors: relative; L1 and Linf over the history, by the largest value.\n\n", options.deck,
-                                reference.empty() ? "none finished" : reference);
+  auto results = names_of(rows, &StudyRow::results);
+  if (options.reference == "exact") { // then they are the errors
+    std::erase_if(results, [](const std::string& name) { return name.rfind("exact.", 0) == 0; });
+  }
+  const auto errors = names_of(rows, &StudyRow::errors);
+  std::string out = fmt::format("# Study of {}\n\nReference: {}. Errors: relative; L1 and Linf {}.\n\n", options.deck,
+                                reference.empty() ? "none finished" : reference,
+                                options.reference == "exact" ? "over the last state, by its mean and its largest value" : "over the history, by the largest value");
   std::string head = "|", rule = "|";
   const auto column = [&](const std::string& name) {
     head += fmt::format(" {} |", cell(name));

@@ -33,6 +33,25 @@ TEST(Study, RefusesAKeyThatIsVariedTwice) {
   EXPECT_THROW(study_points({parse_variation("a+a=1,2")}, {}), Error);
 }
 
+TEST(Study, CasesDifferInDeckAndKeys) {
+  const StudyCase window = parse_case(R"(a window: deck=problems/m80_window.toml; mesh.refine=0.5; title="a; b")");
+  EXPECT_EQ(window.name, "a window");
+  EXPECT_EQ(window.deck, "problems/m80_window.toml");
+  EXPECT_EQ(window.settings, (std::vector<std::string>{"mesh.refine=0.5", R"(title="a; b")"}));
+  EXPECT_TRUE(parse_case("as it is").settings.empty());
+  for (const char* bad : {"", ": a=1", "a=1", "x: a", "x: =1", "x: a="}) {
+    EXPECT_THROW(parse_case(bad), Error) << bad;
+  }
+  const auto points = study_points({window, parse_case("as it is")}, {parse_variation("n=1,2")}, {"d=4"});
+  ASSERT_EQ(points.size(), 4);
+  EXPECT_EQ(points[1].values, (std::vector<std::string>{"a window", "2"}));
+  EXPECT_EQ(points[1].settings, (std::vector<std::string>{"d=4", "mesh.refine=0.5", R"(title="a; b")", "n=2"}));
+  EXPECT_EQ(points[1].deck, "problems/m80_window.toml");
+  EXPECT_EQ(points[2].deck, "");
+  EXPECT_EQ(points[2].name, "002_as-it-is_n=1");
+  EXPECT_THROW(study_points({window, window}, {}, {}), Error);
+}
+
 TEST(Study, ErrorsAreAgainstTheReference) {
   const io::TemporaryFolder folder;
   const auto write = [&](const char* name, const char* text) { std::ofstream(folder.path() / name) << text; };

@@ -45,6 +45,17 @@ TEST(Remap, LeavesUniformStateUnderLargeWhirl) {
   expect_uniform<3>(false, BoundaryKind::symmetry, whirl<3>(1.0), false);
 }
 
+// As after many Lagrangian steps between two remaps: whole turns at once, many cells far.
+TEST(Remap, LeavesUniformStateHoweverFarTheMeshMovesAtOnce) {
+  for (const double angle : {0.1, 0.4, 1.6, 2.6}) {
+    expect_uniform<2>(false, BoundaryKind::symmetry, whirl<2>(angle), false);
+    expect_uniform<2>(true, BoundaryKind::symmetry, whirl<2>(angle), false);
+  }
+  for (const double cells : {1.0, 8.0, 32.0}) {
+    expect_uniform<2>(false, BoundaryKind::outflow, moved<2>(0.1 * cells, -0.07 * cells), false);
+  }
+}
+
 TEST(Remap, LeavesUniformStateUnderShearAndTranslationThroughOpenSides) {
   const auto shear2 = [](Point<2> x) { x[0] += 0.4 * x[1] + 0.2; return x; };
   const auto shear3 = [](Point<3> x) { x[0] += 0.4 * x[1] - 0.3 * x[2]; x[2] += 0.2; return x; };

@@ -8,6 +8,8 @@ std::vector<VerifyCase> verification_cases() {
   verify::add_solid_impact_cases(cases);
   verify::add_advection_cases(cases);
   verify::add_strong_tube_cases(cases);
+  verify::add_exact_scene_cases(cases);
+  verify::add_remap_interval_cases(cases);
   verify::add_impact_cases(cases);
   verify::add_blast_cases(cases);
   verify::add_rest_cases(cases);

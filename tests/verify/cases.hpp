@@ -9,6 +9,8 @@ void add_riemann_cases(std::vector<VerifyCase>& cases);
 void add_solid_impact_cases(std::vector<VerifyCase>& cases);
 void add_advection_cases(std::vector<VerifyCase>& cases);
 void add_strong_tube_cases(std::vector<VerifyCase>& cases);
+void add_exact_scene_cases(std::vector<VerifyCase>& cases);
+void add_remap_interval_cases(std::vector<VerifyCase>& cases);
 void add_impact_cases(std::vector<VerifyCase>& cases);
 void add_blast_cases(std::vector<VerifyCase>& cases);
 void add_rest_cases(std::vector<VerifyCase>& cases);
