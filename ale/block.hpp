@@ -31,6 +31,7 @@ inline constexpr int mass = 1;     ///< kg
 inline constexpr int energy = 2;   ///< J/kg
 inline constexpr int stress = 3;   ///< first deviator component, Pa (materials with strength)
 template <int Dim> inline constexpr int plastic_strain = 3 + stress_components<Dim>;
+template <int Dim> inline constexpr int damage = 4 + stress_components<Dim>; ///< materials with a failure model
 } // namespace field
 
 struct MaterialSlot {
@@ -38,12 +39,16 @@ struct MaterialSlot {
   bool is_void = false;
   bool slides = false; ///< keeps its own velocity along interfaces with what does not (remap/sliding)
   bool strength = false;
+  bool damages = false;        ///< has a failure model
+  bool variable_shear = false; ///< the shear modulus depends on the state and has a field
+  double shear = 0;            ///< shear modulus if it does not, Pa
   GaugeReference reference; ///< the material's initial state
   TileStore store;
 
   int pressure_field() const { return store.conserved(); }
   int modulus_field() const { return store.conserved() + 1; }
   int flow_stress_field() const { return store.conserved() + 2; } ///< with strength only
+  int shear_field() const { return store.conserved() + 3; }       ///< with variable_shear only
 };
 
 /// Mass (kg), centre of mass (m), its velocity (m/s), mean square distance from it (m2) or from a symmetry plane, where the
@@ -52,6 +57,11 @@ struct Bulk {
   double mass = 0;
   std::array<double, 3> centre = {0, 0, 0}, velocity = {0, 0, 0}, spread = {0, 0, 0}, spread_rate = {0, 0, 0};
 };
+
+/// Shear modulus of a material with strength in a cell, Pa; of what has molten a trace, never zero.
+inline double shear_of(const MaterialSlot& slot, int r, int i) {
+  return slot.variable_shear ? slot.store.row(slot.shear_field(), r)[i] : slot.shear;
+}
 
 enum class MotionPolicy {
   lagrangian, ///< never remapped

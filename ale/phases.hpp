@@ -14,6 +14,9 @@ template <int Dim> void update_state(Block<Dim>& block, ThreadPool& pool);
 /// and `rho` (a value a cell) are scratch.
 template <int Dim> void row_state(Block<Dim>& block, int row, RowRuns& runs, std::vector<double>& rho);
 
+/// Pressures, moduli and shear moduli of one row of a material whose shear modulus depends on its state.
+template <int Dim> void refresh_shear(Block<Dim>& block, MaterialSlot& slot, int row);
+
 /// Throws NumericalFailure naming the cell, material and quantity when the row's state is not finite.
 template <int Dim> void throw_if_bad(const Block<Dim>& block, int j, int k);
 

@@ -16,14 +16,16 @@ namespace ballast {
 namespace {
 
 /// Where a return of kinetic energy must stop (J/kg): at half the spall tension at reference density (a thousandth
-/// of the bulk modulus without spall), at zero pressure of a stiffened gas, at zero of a gas.
+/// of the bulk modulus without spall), at zero pressure of a stiffened gas, at zero of a gas and of hot products.
 double least_energy(const Material& m) {
-  if (const auto* mg = std::get_if<MieGruneisen>(&m.eos)) {
-    const double tension = std::isfinite(m.spall_pressure) ? -0.5 * m.spall_pressure : 1e-3 * mg->rho0 * mg->c0 * mg->c0;
-    return mg->gamma0 > 0 ? -tension / (mg->gamma0 * mg->rho0) : -1e-3 * mg->c0 * mg->c0;
+  if (const Condensed c = condensed(m.eos); c.rho0 > 0) {
+    const double tension = std::isfinite(m.spall_pressure) ? -0.5 * m.spall_pressure : 1e-3 * c.rho0 * c.c0 * c.c0;
+    return c.gamma0 > 0 ? -tension / (c.gamma0 * c.rho0) : -1e-3 * c.c0 * c.c0;
   }
-  const auto* stiff = std::get_if<StiffenedGas>(&m.eos);
-  return stiff ? stiff->energy(m.density, 0) : 0.0;
+  const auto *stiff = std::get_if<StiffenedGas>(&m.eos);
+  const auto *products = std::get_if<Jwl>(&m.eos);
+  const bool cold = products != nullptr && m.specific_energy < 0; // a charge at rest, kept by its cold curve
+  return stiff ? stiff->energy(m.density, 0) : cold ? products->energy(m.density, 0) : 0.0;
 }
 
 /// Does a following mesh move towards this side, so that what lies in its way comes in?

@@ -21,8 +21,20 @@ struct BadCell {
   bool found() const { return material >= 0; }
 };
 
+/// Shear moduli of cells whose material has a state-dependent one.
+void evaluate_shear(MaterialSlot& slot, double reference_pressure, int r, int at, int count, const double* rho) {
+  const auto& model = std::get<SteinbergGuinan>(slot.material.strength);
+  const double* e = std::as_const(slot.store).row(field::energy, r) + at;
+  const double* p = std::as_const(slot.store).row(slot.pressure_field(), r) + at;
+  double* shear = slot.store.row(slot.shear_field(), r) + at;
+  for (int i = 0; i < count; ++i) {
+    const double ratio = shear_ratio(model, rho[i], p[i] + reference_pressure, e[i] - slot.material.specific_energy);
+    shear[i] = model.shear_modulus * std::max(ratio, molten_shear);
+  }
+}
+
 /// EOS of `count` cells of one material starting at cell `at` of row r.
-void evaluate(MaterialSlot& slot, int r, int at, int count, const double* volume, std::vector<double>& rho) {
+void evaluate(MaterialSlot& slot, double reference_pressure, int r, int at, int count, const double* volume, std::vector<double>& rho) {
   const double* f = std::as_const(slot.store).row(field::fraction, r) + at;
   const double* m = std::as_const(slot.store).row(field::mass, r) + at;
   const double* e = std::as_const(slot.store).row(field::energy, r) + at;
@@ -33,10 +45,29 @@ void evaluate(MaterialSlot& slot, int r, int at, int count, const double* volume
   }
   evaluate_row(slot.material.eos, slot.reference, count, rho.data(), e,
                slot.store.row(slot.pressure_field(), r) + at, slot.store.row(slot.modulus_field(), r) + at);
+  if (slot.variable_shear) {
+    evaluate_shear(slot, reference_pressure, r, at, count, rho.data());
+  }
 }
 
-double stiffness(const MaterialSlot& slot, double modulus) {
-  return slot.strength ? modulus + 4.0 / 3.0 * shear_modulus(slot.material.strength) : modulus;
+double stiffness(const MaterialSlot& slot, double modulus, int r, int i) {
+  return slot.strength ? modulus + 4.0 / 3.0 * shear_of(slot, r, i) : modulus;
+}
+
+/// Wave speed and shear modulus of a run of pure cells.
+template <int Dim> void stiffen_run(Block<Dim>& b, const MaterialSlot& slot, int r, const RowRuns::Run& run) {
+  const double *k = b.modulus.row(r), *d = b.density.row(r);
+  double* c = b.wave_speed.row(r);
+  if (slot.variable_shear) {
+    const double* g = slot.store.row(slot.shear_field(), r);
+#pragma omp simd
+    for (int i = run.begin; i < run.end; ++i) {
+      c[i] = std::sqrt((k[i] + 4.0 / 3.0 * g[i]) / d[i]);
+    }
+    std::copy(g + run.begin, g + run.end, b.shear.row(r) + run.begin);
+  } else if (b.any_strength()) {
+    std::fill(b.shear.row(r) + run.begin, b.shear.row(r) + run.end, slot.shear);
+  }
 }
 
 template <int Dim>
@@ -50,11 +81,11 @@ void pure_run(Block<Dim>& b, int r, const RowRuns::Run& run, std::vector<double>
       std::fill(f + run.begin, f + run.end, 0.0);
     }
   } else {
-    evaluate(slot, r, run.begin, run.end - run.begin, v, rho);
+    evaluate(slot, b.reference_pressure, r, run.begin, run.end - run.begin, v, rho);
     const double* mp = std::as_const(slot.store).row(slot.pressure_field(), r);
     const double* mk = std::as_const(slot.store).row(slot.modulus_field(), r);
     const double* m = std::as_const(slot.store).row(field::mass, r);
-    const double shear = slot.strength ? 4.0 / 3.0 * shear_modulus(slot.material.strength) : 0.0;
+    const double shear = 4.0 / 3.0 * slot.shear;
 #pragma omp simd
     for (int i = run.begin; i < run.end; ++i) {
       p[i] = mp[i];
@@ -72,8 +103,8 @@ void pure_run(Block<Dim>& b, int r, const RowRuns::Run& run, std::vector<double>
       std::fill(s + run.begin, s + run.end, 0.0);
     }
   }
+  stiffen_run(b, slot, r, run);
   if (b.any_strength()) {
-    std::fill(b.shear.row(r) + run.begin, b.shear.row(r) + run.end, slot.strength ? shear_modulus(slot.material.strength) : 0.0);
     if (slot.strength) {
       const double* y = std::as_const(slot.store).row(slot.flow_stress_field(), r);
       std::copy(y + run.begin, y + run.end, b.flow_stress.row(r) + run.begin);
@@ -99,13 +130,13 @@ template <int Dim> void mixed_state(Block<Dim>& b, int r, int i, std::vector<dou
     if (slot.is_void) {
       continue;
     }
-    evaluate(slot, r, i, 1, b.volume.row(r), rho);
+    evaluate(slot, b.reference_pressure, r, i, 1, b.volume.row(r), rho);
     p.pressure = std::as_const(slot.store).row(slot.pressure_field(), r)[i];
     p.modulus = std::as_const(slot.store).row(slot.modulus_field(), r)[i];
     mass += std::as_const(slot.store).row(field::mass, r)[i];
-    fastest = std::max(fastest, stiffness(slot, p.modulus) / rho[0]);
+    fastest = std::max(fastest, stiffness(slot, p.modulus, r, i) / rho[0]);
     if (slot.strength) {
-      shear += f * shear_modulus(slot.material.strength);
+      shear += f * shear_of(slot, r, i);
       flow += f * std::as_const(slot.store).row(slot.flow_stress_field(), r)[i];
     }
     for (std::size_t a = 0; slot.strength && a < stress_components<Dim>; ++a) {
@@ -165,6 +196,16 @@ template <int Dim> void report(const Block<Dim>& b, const BadCell& c) {
 }
 
 } // namespace
+
+template <int Dim> void refresh_shear(Block<Dim>& b, MaterialSlot& slot, int r) {
+  std::vector<double> rho(1);
+  const double* f = std::as_const(slot.store).row(field::fraction, r);
+  for (int i = 0; i < b.grid.cells[0]; ++i) {
+    if (f[i] > 0) {
+      evaluate(slot, b.reference_pressure, r, i, 1, b.volume.row(r), rho);
+    }
+  }
+}
 
 template <int Dim> void row_state(Block<Dim>& b, int r, RowRuns& runs, std::vector<double>& rho) {
   compute_owner(b, r);
@@ -308,6 +349,8 @@ template <int Dim> Totals totals(const Block<Dim>& b) {
   return t;
 }
 
+template void refresh_shear<2>(Block<2>&, MaterialSlot&, int);
+template void refresh_shear<3>(Block<3>&, MaterialSlot&, int);
 template void row_state<2>(Block<2>&, int, RowRuns&, std::vector<double>&);
 template void row_state<3>(Block<3>&, int, RowRuns&, std::vector<double>&);
 template void throw_if_bad<2>(const Block<2>&, int, int);

@@ -1,5 +1,7 @@
 #include "ale/strength_update.hpp"
 
+#include "ale/phases.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -20,8 +22,19 @@ double equivalent(const double* s, std::integral_constant<int, 3>) {
   return std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + zz * zz + 2 * (s[2] * s[2] + s[3] * s[3] + s[4] * s[4])));
 }
 
+/// Shear moduli of a chunk of cells: one for all, or a row.
+struct OneShear {
+  double value;
+  [[gnu::always_inline]] double operator()(int) const { return value; }
+};
+struct ShearRow {
+  const double* value;
+  [[gnu::always_inline]] double operator()(int i) const { return value[i]; }
+};
+
 /// Rotated stress plus elastic increment, for cells [0, count) from `at` on.
-void trial(double shear, int at, int count, const StressRows<2>& rows, double (*out)[chunk]) {
+template <class Shear>
+void trial(const Shear shear_at, int at, int count, const StressRows<2>& rows, double (*out)[chunk]) {
   const double *gxx = rows.gradient[0] + at, *gxy = rows.gradient[1] + at, *gyx = rows.gradient[2] + at,
                *gyy = rows.gradient[3] + at, *gtt = rows.gradient[4] + at;
   const double *sxx = rows.stress[0] + at, *syy = rows.stress[1] + at, *sxy = rows.stress[2] + at;
@@ -32,16 +45,18 @@ void trial(double shear, int at, int count, const StressRows<2>& rows, double (*
     const double xx = c * c * sxx[i] + 2 * c * s * sxy[i] + s * s * syy[i];
     const double yy = s * s * sxx[i] - 2 * c * s * sxy[i] + c * c * syy[i];
     const double xy = (c * c - s * s) * sxy[i] + c * s * (syy[i] - sxx[i]);
-    const double mean = (gxx[i] + gyy[i] + gtt[i]) / 3;
+    const double mean = (gxx[i] + gyy[i] + gtt[i]) / 3, shear = shear_at(i);
     out[0][i] = xx + 2 * shear * (gxx[i] - mean);
     out[1][i] = yy + 2 * shear * (gyy[i] - mean);
     out[2][i] = xy + shear * (gxy[i] + gyx[i]);
   }
 }
 
-void trial(double shear, int at, int count, const StressRows<3>& rows, double (*out)[chunk]) {
+template <class Shear>
+void trial(const Shear shear_at, int at, int count, const StressRows<3>& rows, double (*out)[chunk]) {
 #pragma omp simd
   for (int i = 0; i < count; ++i) {
+    const double shear = shear_at(i);
     double g[9];
 #pragma GCC unroll 9
     for (int q = 0; q < 9; ++q) {
@@ -81,6 +96,37 @@ void trial(double shear, int at, int count, const StressRows<3>& rows, double (*
   }
 }
 
+/// Shear modulus over the model's: 1 unless it depends on the state.
+template <class Model, int Dim> double stiffening(const Model& model, const StressRows<Dim>& rows, int i) {
+  if constexpr (std::is_same_v<Model, SteinbergGuinan>) {
+    return rows.shear[i] / model.shear_modulus;
+  } else {
+    return 1;
+  }
+}
+
+/// Failed or molten: nothing is carried.
+template <class Model, int Dim> bool carries_nothing(const StressRows<Dim>& rows, double stiffness, int i) {
+  return (std::is_same_v<Model, SteinbergGuinan> && stiffness <= molten_shear) || (rows.damage && has_failed(rows.damage[i]));
+}
+
+template <int Dim> void drop_stress(const StressRows<Dim>& rows, int i) {
+  for (int a = 0; a < stress_components<Dim>; ++a) {
+    rows.stress[a][i] = 0;
+  }
+  rows.flow_stress[i] = 0;
+}
+
+/// Damage of cell i by a plastic increment that ends at equivalent stress q. True when the cell fails by it.
+template <int Dim>
+bool damaged(const Material& material, double dt, double increment, double q, double heat, const StressRows<Dim>& rows, int i) {
+  const double p = rows.pressure[i] + rows.reference_pressure;
+  const FailureState state{q > 0 ? -p / q : 0.0, increment / dt, heat};
+  double& damage = rows.damage[i];
+  damage = std::min(1.0, damage + increment / failure_strain(*material.failure, state));
+  return has_failed(damage);
+}
+
 template <int Dim, class Model>
 int return_to_yield(const Model& model,
                     const Material& material,
@@ -98,38 +144,68 @@ int return_to_yield(const Model& model,
     }
     q[i] = equivalent(s, std::integral_constant<int, Dim>{});
   }
-  int failed = 0;
+  int unsolved = 0;
   for (int i = 0; i < count; ++i) {
     double scale = 1;
-    const FlowState state{rows.plastic_strain[at + i], rows.energy[at + i] - material.specific_energy, dt};
+    const double heat = rows.energy[at + i] - material.specific_energy, stiffer = stiffening(model, rows, at + i);
+    if (carries_nothing<Model>(rows, stiffer, at + i)) {
+      drop_stress(rows, at + i);
+      continue;
+    }
+    const FlowState state{rows.plastic_strain[at + i], heat, dt, stiffer};
     const PlasticIncrement d = plastic_increment(model, state, q[i]);
     if (d.value > 0) {
-      scale = std::max(0.0, 1 - 3 * model.shear_modulus * d.value / q[i]); // a molten metal returns to 0, not to round-off below it
+      scale = std::max(0.0, 1 - 3 * (model.shear_modulus * stiffer) * d.value / q[i]); // a molten metal returns to 0, not to round-off below it
       rows.plastic_strain[at + i] += d.value;
       rows.flow_stress[at + i] = scale * q[i];
     } else {
       rows.flow_stress[at + i] = flow_stress(model, state, 0);
     }
-    failed += d.converged ? 0 : 1;
+    unsolved += d.converged ? 0 : 1;
     for (int a = 0; a < n; ++a) {
       rows.stress[a][at + i] = scale * t[a][i];
     }
+    if (rows.damage && d.value > 0 && damaged(material, dt, d.value, scale * q[i], heat, rows, at + i)) {
+      drop_stress(rows, at + i);
+    }
   }
-  return failed;
+  return unsolved;
 }
 
 } // namespace
+
+template <int Dim> StressRows<Dim> stress_rows(MaterialSlot& slot, double reference_pressure, int r, int at) {
+  StressRows<Dim> s{};
+  for (int a = 0; a < stress_components<Dim>; ++a) {
+    s.stress[a] = slot.store.row(field::stress + a, r) + at;
+  }
+  s.plastic_strain = slot.store.row(field::plastic_strain<Dim>, r) + at;
+  s.flow_stress = slot.store.row(slot.flow_stress_field(), r) + at;
+  s.energy = slot.store.row(field::energy, r) + at;
+  s.shear = slot.variable_shear ? slot.store.row(slot.shear_field(), r) + at : nullptr;
+  s.damage = slot.damages ? slot.store.row(field::damage<Dim>, r) + at : nullptr;
+  s.pressure = slot.store.row(slot.pressure_field(), r) + at;
+  s.reference_pressure = reference_pressure;
+  return s;
+}
+template StressRows<2> stress_rows<2>(MaterialSlot&, double, int, int);
+template StressRows<3> stress_rows<3>(MaterialSlot&, double, int, int);
 
 template <int Dim>
 int update_stress(const Material& material, double dt, int count, const StressRows<Dim>& rows) {
   return std::visit(
       [&](const auto& model) {
         int failed = 0;
-        if constexpr (!std::is_same_v<std::decay_t<decltype(model)>, NoStrength>) {
+        using Model = std::decay_t<decltype(model)>;
+        if constexpr (!std::is_same_v<Model, NoStrength>) {
           double t[stress_components<Dim>][chunk];
           for (int at = 0; at < count; at += chunk) {
             const int part = std::min(chunk, count - at);
-            trial(model.shear_modulus, at, part, rows, t);
+            if constexpr (std::is_same_v<Model, SteinbergGuinan>) {
+              trial(ShearRow{rows.shear + at}, at, part, rows, t);
+            } else {
+              trial(OneShear{model.shear_modulus}, at, part, rows, t);
+            }
             failed += return_to_yield<Dim>(model, material, dt, at, part, rows, t);
           }
         }
@@ -141,19 +217,25 @@ int update_stress(const Material& material, double dt, int count, const StressRo
 template <int Dim> void pull_back_to_yield(const Material& material, int count, const StressRows<Dim>& rows) {
   std::visit(
       [&](const auto& model) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(model)>, NoStrength>) {
+        using Model = std::decay_t<decltype(model)>;
+        if constexpr (!std::is_same_v<Model, NoStrength>) {
           constexpr int n = stress_components<Dim>;
           for (int i = 0; i < count; ++i) {
+            const double stiffer = stiffening(model, rows, i);
+            if (carries_nothing<Model>(rows, stiffer, i)) {
+              drop_stress(rows, i);
+              continue;
+            }
             double s[n];
             for (int a = 0; a < n; ++a) {
               s[a] = rows.stress[a][i];
             }
             const double q = equivalent(s, std::integral_constant<int, Dim>{});
-            const FlowState state{rows.plastic_strain[i], rows.energy[i] - material.specific_energy, 0};
+            const FlowState state{rows.plastic_strain[i], rows.energy[i] - material.specific_energy, 0, stiffer};
             const double limit = flow_stress(model, state, 0);
             // Rate hardening is not known here (it belongs to the next step's strain): a rate-dependent
             // material keeps its stress, and the next return brings it to the surface of its rate.
-            if constexpr (std::is_same_v<std::decay_t<decltype(model)>, JohnsonCook>) {
+            if constexpr (std::is_same_v<Model, JohnsonCook>) {
               rows.flow_stress[i] = std::max(limit, q);
               continue;
             }
@@ -198,13 +280,10 @@ template <int Dim> void pull_back_to_yield(Block<Dim>& b, ThreadPool& pool) {
           if (!slot.strength || !slot.store.has_row(r)) {
             continue;
           }
-          StressRows<Dim> rows{};
-          for (int a = 0; a < stress_components<Dim>; ++a) {
-            rows.stress[a] = slot.store.row(field::stress + a, r);
+          const StressRows<Dim> rows = stress_rows<Dim>(slot, b.reference_pressure, r, 0);
+          if (slot.variable_shear) {
+            refresh_shear(b, slot, r); // the remap has moved the state under it
           }
-          rows.plastic_strain = slot.store.row(field::plastic_strain<Dim>, r);
-          rows.flow_stress = slot.store.row(slot.flow_stress_field(), r);
-          rows.energy = slot.store.row(field::energy, r);
           pull_back_to_yield<Dim>(slot.material, g.cells[0], rows);
           relax_slivers(std::as_const(slot.store).row(field::fraction, r), g.cells[0], rows);
         }

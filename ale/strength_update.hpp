@@ -13,10 +13,18 @@ template <int Dim> struct StressRows {
   double* plastic_strain;
   double* flow_stress; ///< out: what the deviator may reach now, Pa
   const double* energy;
+  const double* shear;    ///< shear modulus, Pa; null: the model's constant
+  double* damage;         ///< null without a failure model
+  const double* pressure; ///< gauge, Pa; with damage only
+  double reference_pressure;
   const double* gradient[Dim == 2 ? 5 : 9];
 };
 
-/// Returns the number of cells whose return did not converge.
+/// Those of a material with strength from cell `at` of row r on, without gradients.
+template <int Dim> StressRows<Dim> stress_rows(MaterialSlot& slot, double reference_pressure, int r, int at);
+
+/// Also accumulates damage; what has failed or molten carries nothing. Returns the number of cells whose return did
+/// not converge.
 template <int Dim>
 [[nodiscard]] int update_stress(const Material& material, double dt, int count, const StressRows<Dim>& rows);
 

@@ -233,9 +233,9 @@ template <int Dim> void traction_cell(Block<Dim>& b, int r, int i, const Eigen::
       const Eigen::Matrix3d s = deviator_of<Dim>(slot, r, i);
       const double normal = n.dot(s * n);
       p.pressure -= normal;
-      p.modulus += n.squaredNorm() * 4 / 3 * shear_modulus(slot.material.strength);
+      p.modulus += n.squaredNorm() * 4 / 3 * shear_of(slot, r, i);
       T += f * (s - normal * Eigen::Matrix3d::Identity());
-      soft += f / shear_modulus(slot.material.strength);
+      soft += f / shear_of(slot, r, i);
     }
   }
   stiffen_cold(cell);
@@ -317,7 +317,7 @@ void share_strain(const Block<Dim>& b,
   for (const Contents::Layer& l : contents) {
     const MaterialSlot& slot = b.materials[l.material];
     if (slot.strength) {
-      const double compliance = l.fraction / shear_modulus(slot.material.strength);
+      const double compliance = l.fraction / shear_of(slot, r, i);
       common += compliance * tangential(deviator_of<Dim>(slot, r, i) * n);
       soft += compliance;
     } else {
@@ -329,8 +329,7 @@ void share_strain(const Block<Dim>& b,
   const double carried = contents.carried(strongest), size = common.norm();
   common *= size > carried ? carried / size : 1.0;
   const auto elastic = [&](const MaterialSlot& slot) {
-    return Eigen::Vector3d((common - tangential(deviator_of<Dim>(slot, r, i) * n)) /
-                           shear_modulus(slot.material.strength));
+    return Eigen::Vector3d((common - tangential(deviator_of<Dim>(slot, r, i) * n)) / shear_of(slot, r, i));
   };
   // What is then left of the shear is slip: in what is open, else in what yields.
   Eigen::Vector3d rest = (1 - std::min(1.0, open / full_slip)) * shear;

@@ -10,6 +10,13 @@ namespace ballast {
 
 namespace {
 
+/// Absolute pressure below which a material tears: its spall pressure; what is damaged through pulls no more than a
+/// strain of 1e-6 does (zero itself would make voids of round-off).
+template <int Dim> double tears_below(const MaterialSlot& slot, int r, int i) {
+  const bool broken = slot.damages && has_failed(slot.store.row(field::damage<Dim>, r)[i]);
+  return broken ? -1e-6 * slot.store.row(slot.modulus_field(), r)[i] : slot.material.spall_pressure;
+}
+
 /// Material of the cell that has failed in tension, or -1. Cells with void are not in tension.
 template <int Dim> int failed_material(const Block<Dim>& b, int r, int i) {
   const int owner = b.owner_row(r)[i], hole = b.void_index();
@@ -19,7 +26,7 @@ template <int Dim> int failed_material(const Block<Dim>& b, int r, int i) {
   const auto fails = [&](std::size_t m) {
     const MaterialSlot& slot = b.materials[m];
     return slot.store.row(field::fraction, r)[i] > 0 &&
-           slot.store.row(slot.pressure_field(), r)[i] + b.reference_pressure < slot.material.spall_pressure;
+           slot.store.row(slot.pressure_field(), r)[i] + b.reference_pressure < tears_below<Dim>(slot, r, i);
   };
   if (owner >= 0) {
     return fails(static_cast<std::size_t>(owner)) ? owner : -1;
@@ -115,7 +122,7 @@ template <int Dim> bool to_be_closed(const Block<Dim>& b, int i, int j, int k, b
       }
       compliance += f / modulus;
       expansion += f / modulus * (slot.store.row(slot.pressure_field(), r)[i] + b.reference_pressure);
-      weakest = f > trace && spall ? std::max(weakest, slot.material.spall_pressure) : weakest;
+      weakest = f > trace && spall ? std::max(weakest, tears_below<Dim>(slot, r, i)) : weakest;
     }
   }
   if (expansion >= gap) {
@@ -204,7 +211,7 @@ template <int Dim> long close_voids(Block<Dim>& b, ThreadPool& pool, bool spall)
 
 template <int Dim> long open_voids(Block<Dim>& b, ThreadPool& pool) {
   const bool any = std::any_of(b.materials.begin(), b.materials.end(),
-                               [](const MaterialSlot& s) { return std::isfinite(s.material.spall_pressure); });
+                               [](const MaterialSlot& s) { return std::isfinite(s.material.spall_pressure) || s.damages; });
   if (!any || b.void_index() < 0) {
     return 0;
   }

@@ -33,14 +33,8 @@ template <int Dim> struct WorkBuffer {
 };
 
 template <int Dim>
-StressRows<Dim> stress_rows(MaterialSlot& slot, int r, int at, const WorkRows<Dim>* w) {
-  StressRows<Dim> s{};
-  for (int a = 0; a < stress_components<Dim>; ++a) {
-    s.stress[a] = slot.store.row(field::stress + a, r) + at;
-  }
-  s.plastic_strain = slot.store.row(field::plastic_strain<Dim>, r) + at;
-  s.flow_stress = slot.store.row(slot.flow_stress_field(), r) + at;
-  s.energy = slot.store.row(field::energy, r) + at;
+StressRows<Dim> stress_rows(MaterialSlot& slot, double reference_pressure, int r, int at, const WorkRows<Dim>* w) {
+  StressRows<Dim> s = stress_rows<Dim>(slot, reference_pressure, r, at);
   for (int q = 0; w && q < WorkRows<Dim>::gradient_components; ++q) {
     s.gradient[q] = w->gradient[q] + at;
   }
@@ -70,7 +64,7 @@ MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume, const Eig
     p.modulus = slot.store.row(slot.modulus_field(), r)[i];
     if (slot.strength) {
       p.pressure -= n.dot(deviator_of<Dim>(slot, r, i) * n);
-      p.modulus += n.squaredNorm() * 4 / 3 * shear_modulus(slot.material.strength);
+      p.modulus += n.squaredNorm() * 4 / 3 * shear_of(slot, r, i);
     }
   }
   stiffen_cold(cell);
@@ -91,7 +85,7 @@ void strain_parts(Block<Dim>& b,
     if (!slot.strength || std::as_const(slot.store).row(field::fraction, r)[i] <= 0) {
       continue;
     }
-    StressRows<Dim> rows = stress_rows<Dim>(slot, r, i, nullptr);
+    StressRows<Dim> rows = stress_rows<Dim>(slot, b.reference_pressure, r, i, nullptr);
     for (int q = 0; q < WorkRows<Dim>::gradient_components; ++q) {
       rows.gradient[q] = own[k] + q;
     }
@@ -210,7 +204,7 @@ void advance_pure(
   }
   if (slot.strength) {
     failed += update_stress<Dim>(
-        slot.material, dt, run.end - run.begin, stress_rows<Dim>(slot, r, run.begin, &w));
+        slot.material, dt, run.end - run.begin, stress_rows<Dim>(slot, b.reference_pressure, r, run.begin, &w));
   }
 }
 

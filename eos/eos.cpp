@@ -25,12 +25,40 @@ std::string describe_one(const StiffenedGas& m) {
 std::string describe_one(const MieGruneisen& m) {
   return fmt::format("Mie-Grueneisen, rho0 {:g}, c0 {:g}, s {:g}, Gamma0 {:g}", m.rho0, m.c0, m.s, m.gamma0);
 }
+std::string describe_one(const CubicGruneisen& m) {
+  return fmt::format("Mie-Grueneisen, cubic Us-up, rho0 {:g}, c0 {:g}, s1 {:g}, s2 {:g}, s3 {:g}, Gamma0 {:g}, b {:g}",
+                     m.rho0, m.c0, m.s1, m.s2, m.s3, m.gamma0, m.b);
+}
+std::string describe_one(const Jwl& m) {
+  return fmt::format("JWL, rho0 {:g}, A {:g}, B {:g} Pa, R1 {:g}, R2 {:g}, omega {:g}{}",
+                     m.rho0, m.A, m.B, m.R1, m.R2, m.omega,
+                     m.detonation_energy > 0 ? fmt::format(", {:g} J/kg", m.detonation_energy) : "");
+}
+std::string describe_one(const LinearBulk& m) {
+  return fmt::format("linear bulk, rho0 {:g}, K {:g} Pa{}", m.rho0, m.K, m.gamma0 > 0 ? fmt::format(", Gamma0 {:g}", m.gamma0) : "");
+}
+
+Condensed condensed_one(const IdealGas&) { return {}; }
+Condensed condensed_one(const StiffenedGas&) { return {}; }
+Condensed condensed_one(const Jwl&) { return {}; }
+Condensed condensed_one(const MieGruneisen& m) { return {m.rho0, m.c0, m.gamma0, m.s, 0}; }
+Condensed condensed_one(const CubicGruneisen& m) { return {m.rho0, m.c0, m.gamma0, m.s1, m.s2}; }
+Condensed condensed_one(const LinearBulk& m) { return {m.rho0, std::sqrt(m.K / m.rho0), m.gamma0, 0, 0}; }
 
 constexpr double snap_ulp = 16 * 2.220446049250313e-16; // mass / volume rounds by a few ulp
 } // namespace
 
 std::string describe(const Eos& eos) {
   return std::visit([](const auto& m) { return describe_one(m); }, eos);
+}
+
+Condensed condensed(const Eos& eos) {
+  return std::visit([](const auto& m) { return condensed_one(m); }, eos);
+}
+
+bool barotropic(const Eos& eos) {
+  const auto* bulk = std::get_if<LinearBulk>(&eos);
+  return bulk != nullptr && bulk->gamma0 == 0;
 }
 
 namespace {

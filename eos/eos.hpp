@@ -5,6 +5,10 @@
 // Energies are per kilogram and carry no offset between materials.
 #pragma once
 
+#include "eos/cubic_gruneisen.hpp"
+#include "eos/jwl.hpp"
+#include "eos/linear_bulk.hpp"
+
 #include <string>
 #include <variant>
 
@@ -92,12 +96,22 @@ private:
   }
 };
 
-using Eos = std::variant<IdealGas, StiffenedGas, MieGruneisen>;
+using Eos = std::variant<IdealGas, StiffenedGas, MieGruneisen, CubicGruneisen, Jwl, LinearBulk>;
 
 double pressure(const Eos& eos, double rho, double e);
 double sound_speed_squared(const Eos& eos, double rho, double e);
 double energy(const Eos& eos, double rho, double p);
 std::string describe(const Eos& eos);
+
+/// Is pressure a function of density alone, so that energy() cannot bring a material to a pressure?
+bool barotropic(const Eos& eos);
+
+/// What the condensed models share: reference density (kg/m3), sound speed there (m/s), Grueneisen parameter and the
+/// first two Us-up coefficients. rho0 = 0: none (gases, detonation products).
+struct Condensed {
+  double rho0 = 0, c0 = 0, gamma0 = 0, s1 = 0, s2 = 0;
+};
+Condensed condensed(const Eos& eos);
 
 /// One row: pressure p - p_reference (Pa) and bulk modulus rho c^2 (Pa) of `count` cells.
 /// The difference is taken against pressure(rho_ref, e_ref) by the same operations, so a cell at the

@@ -1,5 +1,7 @@
 #include "materials/library.hpp"
 
+#include "materials/library_metals.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -34,22 +36,6 @@ Material lead() {
           "Marsh compendium [K1]; heat capacity: Uintah SCG_Lead [R-2nd]; melting at 1 atm [K1]; "
           "spall -0.4 GPa [K3]",
       .confidence = "S, K1, K3"};
-}
-
-Material lead_steinberg() {
-  return {
-      .name = "lead_steinberg",
-      .eos = gruneisen(11340, 2006, 1.429, 2.74),
-      .strength = LinearHardening{.shear_modulus = 8.6e9, .yield = 8.0e6},
-      .density = 11340,
-      .spall_pressure = -0.4e9,
-      .specific_heat = 124,
-      .melt_temperature = 760,
-      .source =
-          "Steinberg 1996 via Uintah SCG_Lead.xml [R-2nd]: c0, S1, gamma0, G0, Y0, cp, Tm. Only "
-          "the linear part of its cubic Us-up fit and the initial yield of its hardening "
-          "law are used; spall -0.4 GPa [K3]",
-      .confidence = "R-2nd, K3"};
 }
 
 Material lead_antimony() {
@@ -181,15 +167,13 @@ Material muscle() {
 }
 
 const std::vector<Material>& library() {
-  static const std::vector<Material> all = {finished(lead()),
-                                            finished(lead_steinberg()),
-                                            finished(lead_antimony()),
-                                            finished(copper_ofhc()),
-                                            finished(gilding_metal()),
-                                            finished(water()),
-                                            finished(air()),
-                                            finished(gelatin_10()),
-                                            finished(muscle())};
+  static const std::vector<Material> all = [] {
+    std::vector<Material> made = {lead(), lead_antimony(), copper_ofhc(), gilding_metal(), water(), air(), gelatin_10(), muscle()};
+    const std::vector<Material> metals = modelled_metals();
+    made.insert(made.begin() + 4, metals.begin(), metals.end()); // after the other metals
+    std::transform(made.begin(), made.end(), made.begin(), finished);
+    return made;
+  }();
   return all;
 }
 
@@ -220,6 +204,7 @@ std::string describe(const Material& m) {
                   c,
                   describe(m.eos),
                   describe(m.strength));
+  out += m.failure ? fmt::format("  failure     {}\n", describe(*m.failure)) : "";
   out += std::isfinite(m.spall_pressure) ? fmt::format("  spall       {:g} Pa\n", m.spall_pressure)
                                          : std::string("  spall       never\n");
   if (m.specific_heat > 0) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "eos/eos.hpp"
+#include "materials/failure.hpp"
 #include "materials/strength.hpp"
 
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace ballast {
@@ -14,6 +16,7 @@ struct Material {
   std::string name;
   Eos eos = IdealGas{};
   Strength strength = NoStrength{};
+  std::optional<JohnsonCookFailure> failure = {}; ///< of materials with strength
   double density = 1;          ///< initial, kg/m3
   double specific_energy = 0;  ///< initial, J/kg; set from the ambient pressure by the scene
   /// Void opens when the pressure falls below this (negative, Pa); minus infinity: never.

@@ -1,5 +1,7 @@
 #include "materials/strength.hpp"
 
+#include "materials/radial_return.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -11,13 +13,15 @@ double shear_modulus(const Strength& strength) {
         if constexpr (std::is_same_v<std::decay_t<decltype(m)>, NoStrength>) {
           return 0.0;
         } else {
-              return m.shear_modulus;
+          return m.shear_modulus;
         }
       },
       strength);
 }
 
 bool has_strength(const Strength& strength) { return !std::holds_alternative<NoStrength>(strength); }
+
+bool has_variable_shear(const Strength& strength) { return std::holds_alternative<SteinbergGuinan>(strength); }
 
 namespace {
 std::string describe_one(const NoStrength&) { return "none"; }
@@ -27,6 +31,10 @@ std::string describe_one(const LinearHardening& m) {
 std::string describe_one(const JohnsonCook& m) {
   return fmt::format("Johnson-Cook, G {:g}, A {:g}, B {:g} Pa, n {:g}, C {:g}, m {:g}",
                      m.shear_modulus, m.A, m.B, m.n, m.C, m.m);
+}
+std::string describe_one(const SteinbergGuinan& m) {
+  return fmt::format("Steinberg-Guinan, G {:g}, Y {:g} to {:g} Pa, beta {:g}, n {:g}, G'p {:g}, B {:g} /K, Tm {:g} K, a {:g}",
+                     m.shear_modulus, m.yield, m.yield_max, m.beta, m.n, m.shear_per_pressure, m.thermal_softening, m.melt_temperature, m.melt_a);
 }
 } // namespace
 
@@ -54,36 +62,16 @@ double flow_stress(const JohnsonCook& m, const FlowState& s, double increment) {
 }
 
 PlasticIncrement plastic_increment(const JohnsonCook& m, const FlowState& s, double trial) {
-  if (trial <= flow_stress(m, s, 0)) {
-    return {0.0};
-  }
-  // r(d) = trial - 3 G d - sigma_y(d) falls from > 0 at 0 to <= 0 at trial/3G: regula falsi with the
-  // Illinois weight, bisected every fourth time. B ep^n has an infinite slope at 0, so Newton is not safe.
-  double low = 0, high = trial / (3 * m.shear_modulus);
-  double r_low = trial - flow_stress(m, s, 0);
-  double r_high = -flow_stress(m, s, high);
-  const double tolerance = 1e-11 * trial;
-  int side = 0;
-  double d = high;
-  for (int it = 1; it <= 100; ++it) {
-    d = it % 4 == 0 ? 0.5 * (low + high) : (low * r_high - high * r_low) / (r_high - r_low);
-    const double r = trial - 3 * m.shear_modulus * d - flow_stress(m, s, d);
-    if (std::abs(r) <= tolerance || high - low <= 1e-15 * high) {
-      return {d, true, it};
-    }
-    if (r > 0) {
-      low = d;
-      r_low = r;
-      r_high *= side == 1 ? 0.5 : 1.0;
-      side = 1;
-    } else {
-      high = d;
-      r_high = r;
-      r_low *= side == -1 ? 0.5 : 1.0;
-      side = -1;
-    }
-  }
-  return {d, false, 100};
+  return solve_return(trial, m.shear_modulus, [&](double d) { return flow_stress(m, s, d); });
+}
+
+double flow_stress(const SteinbergGuinan& m, const FlowState& s, double increment) {
+  const double hardened = m.yield * std::pow(1 + m.beta * (s.plastic_strain + increment), m.n);
+  return std::min(hardened, m.yield_max) * s.stiffening;
+}
+
+PlasticIncrement plastic_increment(const SteinbergGuinan& m, const FlowState& s, double trial) {
+  return solve_return(trial, m.shear_modulus * s.stiffening, [&](double d) { return flow_stress(m, s, d); });
 }
 
 } // namespace ballast

@@ -5,6 +5,8 @@
 // increment d solves q - 3 G d = sigma_y(ep + d, d/dt, T) on [0, q/3G].
 #pragma once
 
+#include "materials/steinberg_guinan.hpp"
+
 #include <cmath>
 #include <limits>
 #include <string>
@@ -32,7 +34,7 @@ struct JohnsonCook {
   double specific_heat = 400;     ///< J/kg/K
 };
 
-using Strength = std::variant<NoStrength, LinearHardening, JohnsonCook>;
+using Strength = std::variant<NoStrength, LinearHardening, JohnsonCook, SteinbergGuinan>;
 
 struct PlasticIncrement {
   double value = 0;
@@ -45,17 +47,24 @@ struct FlowState {
   double plastic_strain = 0;
   double thermal_energy = 0; ///< e - e0, J/kg
   double dt = 0;             ///< s
+  double stiffening = 1;     ///< G/G0 (Steinberg-Guinan)
 };
 
+/// Pa; of Steinberg-Guinan G0.
 double shear_modulus(const Strength& strength);
+/// Does the shear modulus depend on the state?
+bool has_variable_shear(const Strength& strength);
 bool has_strength(const Strength& strength);
 std::string describe(const Strength& strength);
 
 double flow_stress(const LinearHardening& m, const FlowState& s, double increment);
 double flow_stress(const JohnsonCook& m, const FlowState& s, double increment);
+double flow_stress(const SteinbergGuinan& m, const FlowState& s, double increment);
 [[nodiscard]] PlasticIncrement
 plastic_increment(const LinearHardening& m, const FlowState& s, double trial);
 [[nodiscard]] PlasticIncrement
 plastic_increment(const JohnsonCook& m, const FlowState& s, double trial);
+[[nodiscard]] PlasticIncrement
+plastic_increment(const SteinbergGuinan& m, const FlowState& s, double trial);
 
 } // namespace ballast

@@ -34,7 +34,7 @@ Numerics method_of(const SceneSpec& spec) {
 
 bool needs_void(const SceneSpec& spec) {
   const bool spall = spec.numerics.spall && std::any_of(spec.materials.begin(), spec.materials.end(), [](const Material& m) {
-                       return std::isfinite(m.spall_pressure);
+                       return std::isfinite(m.spall_pressure) || m.failure.has_value();
                      });
   const bool holes = std::any_of(spec.bodies.begin(), spec.bodies.end(), [](const Body& b) { return b.material < 0; });
   bool free = false; // behind a free side of an eulerian mesh there is void, and it may flow in

@@ -162,6 +162,15 @@ io::GridDump dump_block(const Block<Dim>& b, remap::NormalMethod normal, const s
       return sum;
     });
   }
+  if (wanted("damage")) {
+    out.cells("damage", [&](int r, int i) {
+      double sum = 0;
+      for (const MaterialSlot& slot : b.materials) {
+        sum += slot.damages ? slot.store.row(field::fraction, r)[i] * slot.store.row(field::damage<Dim>, r)[i] : 0.0;
+      }
+      return sum;
+    });
+  }
   if (wanted("deviatoric_stress") && b.any_strength()) {
     out.cells("equivalent_stress", [&](int r, int i) {
       const double xx = b.stress[0].row(r)[i], yy = b.stress[1].row(r)[i];

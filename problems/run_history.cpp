@@ -133,15 +133,16 @@ template <int Dim> std::vector<double> RunSession<Dim>::values() {
         v.push_back(p);
       } else if (name == "density") {
         v.push_back(b.density.row(r)[i]);
-      } else if (name == "specific_energy" || name == "plastic_strain") {
+      } else if (name == "specific_energy" || name == "plastic_strain" || name == "damage") {
+        const int history = name == "plastic_strain" ? field::plastic_strain<Dim> : name == "damage" ? field::damage<Dim> : field::energy;
         double mass = 0, sum = 0;
         for (const MaterialSlot& s : b.materials) {
-          if (s.is_void || (name == "plastic_strain" && !s.strength)) {
+          if (s.is_void || (name == "plastic_strain" && !s.strength) || (name == "damage" && !s.damages)) {
             continue;
           }
           const double m = s.store.row(field::mass, r)[i];
           mass += m;
-          sum += m * s.store.row(name == "plastic_strain" ? field::plastic_strain<Dim> : field::energy, r)[i];
+          sum += m * s.store.row(history, r)[i];
         }
         v.push_back(mass > 0 ? sum / mass : 0.0);
       } else if (name == "deviatoric_stress") {

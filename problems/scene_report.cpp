@@ -83,11 +83,12 @@ std::string material_table(const SceneSpec& scene) {
   std::string out = "materials\n";
   for (const Material& m : scene.materials) {
     out += fmt::format(
-        "  {:<16} {:9.4g} kg/m3  {}; strength: {}{}  [{}]\n",
+        "  {:<16} {:9.4g} kg/m3  {}; strength: {}{}{}  [{}]\n",
         m.name,
         m.density,
         describe(m.eos),
         describe(m.strength),
+        m.failure ? fmt::format("; failure: {}", describe(*m.failure)) : "",
         std::isfinite(m.spall_pressure) ? fmt::format("; spall {:.3g} Pa", m.spall_pressure) : "",
         m.confidence);
   }
@@ -217,7 +218,8 @@ Cost estimated_cost(const SceneSpec& scene) {
   // Of the block: nodes 5 vectors and 3 masses, cells 7 scalars, 5 a logical axis, the deviator and two moduli; of
   // its materials what one fills a cell with, conserved twice, derived once.
   const int block = 5 * dim + 3 + 7 + 5 * dim + deviator + (strength ? 2 : 0);
-  const int material = 2 * (3 + deviator + (strength ? 1 : 0)) + (strength ? 3 : 2);
+  const bool breaks = std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.failure.has_value(); });
+  const int material = 2 * (3 + deviator + (strength ? 1 : 0) + (breaks ? 1 : 0)) + (strength ? 3 : 2);
   const int sliding = scene.sliding.empty() ? 0 : 5 * dim + 4; // nodes 4 vectors and 2 scalars, cells a vector and 2 scalars
   c.bytes_per_cell = 8.0 * (block + material + sliding);
   // Measured microseconds a cell-step on one core (docs/performance.md); cells with several materials cost more.

@@ -10,6 +10,7 @@ const std::vector<std::string>& gauge_quantities() {
                                                  "specific_energy",
                                                  "position",
                                                  "plastic_strain",
+                                                 "damage",
                                                  "deviatoric_stress"};
   return names;
 }
@@ -24,6 +25,7 @@ const std::vector<std::string>& field_quantities() {
                                                  "specific_energy",
                                                  "sound_speed",
                                                  "plastic_strain",
+                                                 "damage",
                                                  "deviatoric_stress",
                                                  "viscosity"};
   return names;

@@ -1,0 +1,46 @@
+// The scalar equation of the radial return, solved for any flow stress that does not fall with strain.
+#pragma once
+
+#include "materials/strength.hpp"
+
+#include <cmath>
+
+namespace ballast {
+
+/// Root d of trial - 3 G d = flow(d) on [0, trial/3G]; 0 when trial does not exceed flow(0).
+///
+/// r(d) = trial - 3 G d - flow(d) falls from > 0 at 0 to <= 0 at trial/3G: regula falsi with the Illinois weight,
+/// bisected every fourth time. B ep^n has an infinite slope at 0, so Newton is not safe.
+template <class Flow> [[nodiscard]] PlasticIncrement solve_return(double trial, double shear, Flow&& flow) {
+  const double at_rest = flow(0.0);
+  if (trial <= at_rest) {
+    return {0.0};
+  }
+  double low = 0, high = trial / (3 * shear);
+  double r_low = trial - at_rest;
+  double r_high = -flow(high);
+  const double tolerance = 1e-11 * trial;
+  int side = 0;
+  double d = high;
+  for (int it = 1; it <= 100; ++it) {
+    d = it % 4 == 0 ? 0.5 * (low + high) : (low * r_high - high * r_low) / (r_high - r_low);
+    const double r = trial - 3 * shear * d - flow(d);
+    if (std::abs(r) <= tolerance || high - low <= 1e-15 * high) {
+      return {d, true, it};
+    }
+    if (r > 0) {
+      low = d;
+      r_low = r;
+      r_high *= side == 1 ? 0.5 : 1.0;
+      side = 1;
+    } else {
+      high = d;
+      r_high = r;
+      r_low *= side == -1 ? 0.5 : 1.0;
+      side = -1;
+    }
+  }
+  return {d, false, 100};
+}
+
+} // namespace ballast

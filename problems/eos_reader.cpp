@@ -1,0 +1,112 @@
+// Equation of state of a material from its deck section.
+#include "problems/material_models.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace ballast {
+namespace {
+
+const std::vector<ModelKeys>& eos_keys() {
+  static const std::vector<ModelKeys> table = {
+      {"ideal_gas", {"gamma", "conductivity"}},
+      {"stiffened_gas", {"gamma", "p_infinity"}},
+      {"mie_gruneisen", {"c0", "s", "gamma0", "gamma_constant"}},
+      {"cubic_gruneisen", {"c0", "s1", "s2", "s3", "gamma0", "b"}},
+      {"jwl", {"jwl_A", "jwl_B", "R1", "R2", "omega", "detonation_energy"}},
+      {"linear_bulk", {"bulk_modulus", "gamma0"}}};
+  return table;
+}
+
+/// The model a section changes: what the material has, or, for another model, a new one that needs its keys.
+template <class Model>
+Model start(Deck& deck, const Section& in, const Material& m, bool fresh, std::initializer_list<const char*> keys, const char* name) {
+  if (fresh) {
+    have(deck, in, keys, name);
+    return {};
+  }
+  return std::get<Model>(m.eos);
+}
+
+IdealGas read_ideal(Deck& deck, const Section& in, Material& m, bool fresh) {
+  constexpr double gas_conductivity = 0.026; // W/m/K, air's: other gases 0.01 to 0.18
+  auto eos = start<IdealGas>(deck, in, m, fresh, {"gamma"}, "ideal_gas");
+  m.conductivity = fresh && m.specific_heat > 0 ? gas_conductivity : m.conductivity;
+  set(eos.gamma, in, "gamma");
+  set(m.conductivity, in, "conductivity");
+  if (m.conductivity > 0 && m.specific_heat <= 0) {
+    have(deck, in, {"specific_heat"}, "conductivity");
+  }
+  return eos;
+}
+
+StiffenedGas read_stiffened(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  auto eos = start<StiffenedGas>(deck, in, m, fresh, {"gamma", "p_infinity"}, "stiffened_gas");
+  set(eos.gamma, in, "gamma");
+  set(eos.p_infinity, in, "p_infinity");
+  return eos;
+}
+
+MieGruneisen read_gruneisen(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  auto eos = start<MieGruneisen>(deck, in, m, fresh, {"c0", "s", "gamma0"}, "mie_gruneisen");
+  eos.rho0 = m.density;
+  set(eos.c0, in, "c0");
+  set(eos.s, in, "s");
+  set(eos.gamma0, in, "gamma0");
+  eos.gamma_constant = in.has("gamma_constant") ? in.flag("gamma_constant") : eos.gamma_constant;
+  return eos;
+}
+
+CubicGruneisen read_cubic(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  auto eos = start<CubicGruneisen>(deck, in, m, fresh, {"c0", "s1", "gamma0"}, "cubic_gruneisen");
+  eos.rho0 = m.density;
+  set(eos.c0, in, "c0");
+  set(eos.s1, in, "s1");
+  set(eos.s2, in, "s2");
+  set(eos.s3, in, "s3");
+  set(eos.gamma0, in, "gamma0");
+  set(eos.b, in, "b");
+  return eos;
+}
+
+Jwl read_jwl(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  auto eos = start<Jwl>(deck, in, m, fresh, {"jwl_A", "jwl_B", "R1", "R2", "omega"}, "jwl");
+  eos.rho0 = m.density;
+  set(eos.A, in, "jwl_A");
+  set(eos.B, in, "jwl_B");
+  set(eos.R1, in, "R1");
+  set(eos.R2, in, "R2");
+  set(eos.omega, in, "omega");
+  set(eos.detonation_energy, in, "detonation_energy");
+  return eos;
+}
+
+LinearBulk read_bulk(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  auto eos = start<LinearBulk>(deck, in, m, fresh, {"bulk_modulus"}, "linear_bulk");
+  eos.rho0 = m.density;
+  set(eos.K, in, "bulk_modulus");
+  set(eos.gamma0, in, "gamma0");
+  return eos;
+}
+
+} // namespace
+
+void read_eos(Deck& deck, const Section& in, Material& m, bool fresh) {
+  std::size_t model = m.eos.index();
+  if (in.has("eos")) {
+    model = static_cast<std::size_t>(in.choice("eos")); // the choices are in the order of the variant
+    fresh = fresh || model != m.eos.index();
+  }
+  refuse_foreign(deck, in, eos_keys(), model);
+  m.conductivity = model == 0 ? m.conductivity : 0;
+  switch (model) {
+  case 0: m.eos = read_ideal(deck, in, m, fresh); break;
+  case 1: m.eos = read_stiffened(deck, in, m, fresh); break;
+  case 2: m.eos = read_gruneisen(deck, in, m, fresh); break;
+  case 3: m.eos = read_cubic(deck, in, m, fresh); break;
+  case 4: m.eos = read_jwl(deck, in, m, fresh); break;
+  default: m.eos = read_bulk(deck, in, m, fresh); break;
+  }
+}
+
+} // namespace ballast

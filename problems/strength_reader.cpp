@@ -1,0 +1,150 @@
+// Strength and failure of a material from its deck section.
+#include "problems/material_models.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace ballast {
+namespace {
+
+const std::vector<ModelKeys>& strength_keys() {
+  static const std::vector<ModelKeys> table = {
+      {"none", {}},
+      {"linear_hardening", {"shear_modulus", "yield", "hardening"}},
+      {"johnson_cook", {"shear_modulus", "A", "B", "n", "C", "m", "reference_rate"}},
+      {"steinberg_guinan",
+       {"shear_modulus", "yield", "yield_max", "beta", "n", "shear_per_pressure", "thermal_softening", "melt_a"}}};
+  return table;
+}
+
+/// Numbers that thermal models take from the material itself.
+void need_heat(Deck& deck, const Section& in, const Material& m, const char* model) {
+  if (m.melt_temperature <= 0) {
+    have(deck, in, {"melt_temperature"}, model);
+  }
+  if (m.specific_heat <= 0) {
+    have(deck, in, {"specific_heat"}, model);
+  }
+}
+
+JohnsonCook read_johnson_cook(Deck& deck, const Section& in, const Material& m, bool fresh, double temperature) {
+  JohnsonCook s = fresh ? JohnsonCook{} : std::get<JohnsonCook>(m.strength);
+  if (fresh) {
+    have(deck, in, {"shear_modulus", "A", "B", "n", "C", "m"}, "johnson_cook");
+    need_heat(deck, in, m, "johnson_cook");
+  }
+  set(s.shear_modulus, in, "shear_modulus");
+  set(s.A, in, "A");
+  set(s.B, in, "B");
+  set(s.n, in, "n");
+  set(s.C, in, "C");
+  set(s.m, in, "m");
+  set(s.reference_rate, in, "reference_rate");
+  s.melt_temperature = m.melt_temperature;
+  s.specific_heat = m.specific_heat;
+  s.reference_temperature = temperature;
+  return s;
+}
+
+LinearHardening read_linear(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  LinearHardening s = fresh ? LinearHardening{} : std::get<LinearHardening>(m.strength);
+  if (fresh) {
+    have(deck, in, {"shear_modulus", "yield"}, "linear_hardening");
+  }
+  set(s.shear_modulus, in, "shear_modulus");
+  set(s.yield, in, "yield");
+  set(s.hardening, in, "hardening");
+  return s;
+}
+
+SteinbergGuinan read_steinberg(Deck& deck, const Section& in, const Material& m, bool fresh, double temperature) {
+  SteinbergGuinan s = fresh ? SteinbergGuinan{} : std::get<SteinbergGuinan>(m.strength);
+  if (fresh) {
+    have(deck, in, {"shear_modulus", "yield", "yield_max", "beta", "n", "shear_per_pressure", "thermal_softening", "melt_a"}, "steinberg_guinan");
+    need_heat(deck, in, m, "steinberg_guinan");
+  }
+  set(s.shear_modulus, in, "shear_modulus");
+  set(s.yield, in, "yield");
+  set(s.yield_max, in, "yield_max");
+  set(s.beta, in, "beta");
+  set(s.n, in, "n");
+  set(s.shear_per_pressure, in, "shear_per_pressure");
+  set(s.thermal_softening, in, "thermal_softening");
+  set(s.melt_a, in, "melt_a");
+  s.melt_temperature = m.melt_temperature;
+  s.specific_heat = m.specific_heat;
+  s.reference_temperature = temperature;
+  s.eos = condensed(m.eos);
+  DeckNode* chosen = in.node("strength");
+  if (std::get_if<MieGruneisen>(&m.eos) == nullptr && std::get_if<CubicGruneisen>(&m.eos) == nullptr) {
+    deck.fail_key(chosen != nullptr ? *chosen : in.self(),
+                  fmt::format("steinberg_guinan takes the temperature along an isentrope from the equation of state; {} gives none", describe(m.eos)),
+                  "eos = \"mie_gruneisen\" or \"cubic_gruneisen\"");
+  }
+  for (const char* key : {"yield_max", "yield"}) {
+    if (in.has(key) && s.yield > s.yield_max && s.yield_max > 0) {
+      deck.fail(*in.node(key), fmt::format("the yield stress {:g} Pa is above yield_max, {:g} Pa", s.yield, s.yield_max), "yield <= yield_max");
+      break;
+    }
+  }
+  return s;
+}
+
+} // namespace
+
+void read_strength(Deck& deck, const Section& in, Material& m, double temperature) {
+  std::size_t model = m.strength.index();
+  bool fresh = false;
+  if (in.has("strength")) {
+    model = static_cast<std::size_t>(in.choice("strength")); // the choices are in the order of the variant
+    fresh = model != m.strength.index();
+  }
+  refuse_foreign(deck, in, strength_keys(), model);
+  switch (model) {
+  case 0: m.strength = NoStrength{}; break;
+  case 1: m.strength = read_linear(deck, in, m, fresh); break;
+  case 2: m.strength = read_johnson_cook(deck, in, m, fresh, temperature); break;
+  default: m.strength = read_steinberg(deck, in, m, fresh, temperature); break;
+  }
+}
+
+void read_failure(Deck& deck, const Section& in, Material& m, double temperature) {
+  const std::vector<ModelKeys> table = {{"none", {}}, {"johnson_cook", {"D1", "D2", "D3", "D4", "D5"}}};
+  bool fresh = false, wanted = m.failure.has_value();
+  if (in.has("failure")) {
+    wanted = in.choice("failure") == 1;
+    fresh = wanted && !m.failure;
+  }
+  refuse_foreign(deck, in, table, wanted ? 1 : 0);
+  if (!wanted) {
+    m.failure.reset();
+    return;
+  }
+  JohnsonCookFailure f = m.failure.value_or(JohnsonCookFailure{});
+  if (fresh) {
+    have(deck, in, {"D1", "D2", "D3", "D4", "D5"}, "failure johnson_cook");
+  }
+  set(f.D1, in, "D1");
+  set(f.D2, in, "D2");
+  set(f.D3, in, "D3");
+  set(f.D4, in, "D4");
+  set(f.D5, in, "D5");
+  if (f.D5 != 0) {
+    need_heat(deck, in, m, "failure johnson_cook (D5)");
+  }
+  if (!has_strength(m.strength)) {
+    if (!fresh) {
+      m.failure.reset(); // the deck took the strength of a named material away: nothing is left to break
+      return;
+    }
+    deck.fail_key(*in.node("failure"), "a material without strength has no plastic strain to fail by", "with a `strength`");
+  }
+  const auto* cook = std::get_if<JohnsonCook>(&m.strength);
+  f.reference_rate = cook != nullptr ? cook->reference_rate : 1.0;
+  f.melt_temperature = m.melt_temperature;
+  f.specific_heat = m.specific_heat;
+  f.reference_temperature = temperature;
+  m.failure = f;
+}
+
+} // namespace ballast
