@@ -15,17 +15,26 @@ namespace ballast {
 
 namespace {
 
+/// JWL: a charge's products are hot, like a gas. Without a charge they hold on to their cold curve as condensed matter
+/// does: less by the tension than at no pressure, or than zero.
+double least_energy(const Jwl& products, const Material& m) {
+  const double modulus = m.density * products.sound_speed_squared(m.density, m.specific_energy);
+  const double tension = std::isfinite(m.spall_pressure) ? -0.5 * m.spall_pressure : 1e-3 * modulus;
+  return products.detonation_energy > 0 ? 0.0 : std::min(0.0, m.specific_energy) - tension / (products.omega * m.density);
+}
+
 /// Where a return of kinetic energy must stop (J/kg): at half the spall tension at reference density (a thousandth
-/// of the bulk modulus without spall), at zero pressure of a stiffened gas, at zero of a gas and of hot products.
+/// of the bulk modulus without spall), at zero pressure of a stiffened gas, at zero of a gas.
 double least_energy(const Material& m) {
   if (const Condensed c = condensed(m.eos); c.rho0 > 0) {
     const double tension = std::isfinite(m.spall_pressure) ? -0.5 * m.spall_pressure : 1e-3 * c.rho0 * c.c0 * c.c0;
     return c.gamma0 > 0 ? -tension / (c.gamma0 * c.rho0) : -1e-3 * c.c0 * c.c0;
   }
-  const auto *stiff = std::get_if<StiffenedGas>(&m.eos);
-  const auto *products = std::get_if<Jwl>(&m.eos);
-  const bool cold = products != nullptr && m.specific_energy < 0; // a charge at rest, kept by its cold curve
-  return stiff ? stiff->energy(m.density, 0) : cold ? products->energy(m.density, 0) : 0.0;
+  if (const auto* products = std::get_if<Jwl>(&m.eos)) {
+    return least_energy(*products, m);
+  }
+  const auto* stiff = std::get_if<StiffenedGas>(&m.eos);
+  return stiff ? stiff->energy(m.density, 0) : 0.0;
 }
 
 /// Does a following mesh move towards this side, so that what lies in its way comes in?

@@ -36,12 +36,6 @@ bool require(Context c, const Section& in, const char* key) {
   return in.has(key);
 }
 
-/// Does the material bring its own energy, so that it does not start at the ambient pressure?
-bool charged(const Eos& eos) {
-  const auto* products = std::get_if<Jwl>(&eos);
-  return products != nullptr && products->detonation_energy > 0;
-}
-
 /// Density, pressure and energy of a body: given, else the material's and the ambient.
 void set_state(Context c, const Section& in, Body& body) {
   if (body.material < 0) {
@@ -49,12 +43,7 @@ void set_state(Context c, const Section& in, Body& body) {
     return;
   }
   const Material& m = c.scene.materials[static_cast<std::size_t>(body.material)];
-  if (in.has("pressure") && barotropic(m.eos)) {
-    c.deck.fail_key(*in.node("pressure"), fmt::format("the pressure of {} depends on its density alone", m.name), "a `density`");
-    return;
-  }
   body.density = in.number("density", m.density);
-  body.pressure = in.number("pressure", c.scene.ambient_pressure);
   if (in.has("specific_energy")) {
     if (in.has("pressure")) {
       c.deck.fail_key(*in.node("specific_energy"),
@@ -64,12 +53,10 @@ void set_state(Context c, const Section& in, Body& body) {
     }
     body.specific_energy = in.number("specific_energy");
     body.pressure = pressure(m.eos, body.density, body.specific_energy);
-  } else if (in.has("pressure") || !charged(m.eos)) {
-    body.specific_energy = energy(m.eos, body.density, body.pressure);
-    body.pressure = barotropic(m.eos) ? pressure(m.eos, body.density, body.specific_energy) : body.pressure;
   } else {
-    body.specific_energy = m.specific_energy;
-    body.pressure = pressure(m.eos, body.density, body.specific_energy);
+    const StartState start = start_state(c.deck, in, m, body.density, c.scene.ambient_pressure);
+    body.specific_energy = start.specific_energy;
+    body.pressure = start.pressure;
   }
   const double c2 = sound_speed_squared(m.eos, body.density, body.specific_energy);
   if (!(c2 > 0)) {

@@ -106,6 +106,12 @@ void MaterialBook::define(Deck& deck, const std::string& name, DeckNode& node) {
 }
 
 namespace {
+/// Energy that a charge of explosive brings along, J/kg; 0: none.
+double charge_of(const Eos& eos) {
+  const auto* products = std::get_if<Jwl>(&eos);
+  return products != nullptr ? products->detonation_energy : 0.0;
+}
+
 /// The material's initial state in the scene's surroundings.
 void start_at(Material& m, double pressure, double temperature) {
   m.reference_temperature = temperature;
@@ -121,10 +127,22 @@ void start_at(Material& m, double pressure, double temperature) {
   if (auto* bulk = std::get_if<LinearBulk>(&m.eos)) {
     bulk->p0 = pressure;
   }
-  const auto* jwl = std::get_if<Jwl>(&m.eos);
-  m.specific_energy = jwl != nullptr && jwl->detonation_energy > 0 ? jwl->detonation_energy : energy(m.eos, m.density, pressure);
+  const double charge = charge_of(m.eos);
+  m.specific_energy = charge > 0 ? charge : energy(m.eos, m.density, pressure);
 }
 } // namespace
+
+StartState start_state(Deck& deck, const Section& in, const Material& m, double density, double ambient) {
+  const double charge = charge_of(m.eos);
+  if (barotropic(m.eos) && in.has("pressure")) {
+    deck.fail_key(*in.node("pressure"), fmt::format("the pressure of {} depends on its density alone", m.name), "a `density`");
+  }
+  if (in.has("pressure") || (charge == 0 && !barotropic(m.eos))) {
+    const double p = in.number("pressure", ambient);
+    return {energy(m.eos, density, p), p};
+  }
+  return {charge, pressure(m.eos, density, charge)};
+}
 
 std::optional<int> MaterialBook::index(Deck& deck, const std::string& name, DeckNode& blame) {
   if (name == "void") {

@@ -188,8 +188,9 @@ void read_inflow(Context c, const Section& in, std::size_t axis, std::size_t s, 
   c.scene.materials = c.book.used();
   const Material& m = c.scene.materials[static_cast<std::size_t>(*material)];
   side.density = in.number("density", m.density);
-  side.pressure = in.number("pressure", c.scene.ambient_pressure);
-  side.specific_energy = energy(m.eos, side.density, side.pressure);
+  const StartState start = start_state(c.deck, in, m, side.density, c.scene.ambient_pressure);
+  side.pressure = start.pressure;
+  side.specific_energy = start.specific_energy;
 }
 
 void refuse_keys(Context c,

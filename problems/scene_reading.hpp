@@ -26,6 +26,13 @@ private:
   std::vector<Material> used_;
 };
 
+/// Energy (J/kg) and pressure (Pa) of a material at `density` in a section that may give a `pressure`: without one at
+/// the ambient pressure, unless the material brings its own energy (JWL) or has no choice (linear bulk).
+struct StartState {
+  double specific_energy = 0, pressure = 0;
+};
+StartState start_state(Deck& deck, const Section& in, const Material& m, double density, double ambient);
+
 /// A `shape` table; nothing (and errors) if it is not one.
 std::optional<Shape> read_shape(Deck& deck, DeckNode& node, Geometry geometry);
 

@@ -24,6 +24,21 @@ std::vector<Sample> samples() {
       s.push_back({constant, rho, e});
     }
   }
+  const CubicGruneisen lead{11340, 2006, 1.429, 0.8506, -1.64, 2.74, 0.54};
+  for (const double rho : {10000.0, 11300.0, 11341.0, 13000.0, 17000.0, 25000.0}) {
+    for (const double e : {0.0, 1e4, 5e5}) {
+      s.push_back({lead, rho, e});
+    }
+  }
+  const Jwl tnt{1630, 371.2e9, 3.231e9, 4.15, 0.95, 0.30, 4.29e6};
+  for (const double rho : {1.0, 100.0, 700.0, 1630.0, 2200.0}) {
+    for (const double e : {2e5, 4.29e6}) {
+      s.push_back({tnt, rho, e});
+    }
+  }
+  for (const double rho : {900.0, 1000.0, 1200.0}) {
+    s.push_back({LinearBulk{1000, 2.2e9, 0.4, 1e5}, rho, 1e4});
+  }
   return s;
 }
 
@@ -50,6 +65,65 @@ TEST(Eos, MieGruneisenIsContinuousWhereTensionBegins) {
   const double below = 8930 * (1 - 1e-12), above = 8930 * (1 + 1e-12);
   EXPECT_NEAR(pressure(eos, below, 0), pressure(eos, above, 0), 1e-11 * 8930 * 3940 * 3940);
   EXPECT_NEAR(sound_speed_squared(eos, below, 0) / sound_speed_squared(eos, above, 0), 1, 1e-10);
+}
+
+// *EOS_GRUNEISEN as the manual writes it, energy by initial volume.
+TEST(Eos, CubicGruneisenIsLsDynas) {
+  const CubicGruneisen m{11340, 2006, 1.429, 0.8506, -1.64, 2.74, 0.54};
+  for (const double mu : {0.01, 0.1, 0.4, 1.0}) {
+    const double e = 3e4, energy0 = m.rho0 * e;
+    const double top = m.rho0 * m.c0 * m.c0 * mu * (1 + (1 - m.gamma0 / 2) * mu - m.b / 2 * mu * mu);
+    const double d = 1 - (m.s1 - 1) * mu - m.s2 * mu * mu / (mu + 1) - m.s3 * mu * mu * mu / ((mu + 1) * (mu + 1));
+    const double want = top / (d * d) + (m.gamma0 + m.b * mu) * energy0;
+    EXPECT_NEAR(m.pressure(m.rho0 * (1 + mu), e) / want, 1, 1e-12) << mu;
+  }
+}
+
+TEST(Eos, CubicGruneisenWithoutItsHigherTermsIsTheLinearOne) {
+  const MieGruneisen linear{8930, 3940, 1.489, 2.02};
+  const CubicGruneisen cubic{8930, 3940, 1.489, 0, 0, 2.02, 0};
+  for (const double rho : {8000.0, 9000.0, 12000.0}) {
+    EXPECT_NEAR(cubic.pressure(rho, 2e4) / linear.pressure(rho, 2e4), 1, 1e-12);
+    EXPECT_NEAR(cubic.sound_speed_squared(rho, 2e4) / linear.sound_speed_squared(rho, 2e4), 1, 1e-12);
+  }
+}
+
+TEST(Eos, RowExponentialIsTheLibrarysToRounding) {
+  for (double x = -650; x < 650; x += 0.37) {
+    EXPECT_NEAR(row_exp(x) / std::exp(x), 1, 5e-16) << x;
+  }
+  EXPECT_EQ(row_exp(0), 1);
+  EXPECT_GE(row_exp(-1e9), 0); // far expanded products
+  EXPECT_LT(row_exp(-1e9), 1e-300);
+}
+
+TEST(Eos, FarExpandedProductsAreAnIdealGas) {
+  const Jwl tnt{1630, 371.2e9, 3.231e9, 4.15, 0.95, 0.30, 4.29e6};
+  const IdealGas gas{1.3};
+  EXPECT_NEAR(tnt.pressure(1, 1e6) / gas.pressure(1, 1e6), 1, 1e-9);
+  EXPECT_NEAR(tnt.sound_speed_squared(1, 1e6) / gas.sound_speed_squared(1, 1e6), 1, 1e-9);
+}
+
+TEST(Eos, BarotropicMaterialIgnoresItsEnergy) {
+  const Eos eos = LinearBulk{1000, 2.2e9, 0, 1e5};
+  EXPECT_TRUE(barotropic(eos));
+  EXPECT_FALSE(barotropic(LinearBulk{1000, 2.2e9, 0.1, 0}));
+  EXPECT_EQ(pressure(eos, 1010, 0), pressure(eos, 1010, 1e6));
+  EXPECT_EQ(pressure(eos, 1000, 0), 1e5);
+  EXPECT_DOUBLE_EQ(sound_speed_squared(eos, 700, 0), 2.2e6); // in tension too
+}
+
+// The same bits for a row as for one cell, for every model: else a body at rest would not stay so.
+TEST(Eos, GaugePressureIsExactlyZeroAtTheReferenceOfEveryModel) {
+  for (const Sample& s : samples()) {
+    const GaugeReference ref{s.rho, s.e, pressure(s.eos, s.rho, s.e), 0};
+    const double rho[2] = {s.rho, s.rho * (1 + 4e-16)}, e[2] = {s.e, s.e};
+    double p[2], k[2];
+    evaluate_row(s.eos, ref, 2, rho, e, p, k);
+    EXPECT_EQ(p[0], 0) << describe(s.eos);
+    EXPECT_EQ(p[1], 0) << describe(s.eos);
+    EXPECT_NEAR(k[0] / (s.rho * sound_speed_squared(s.eos, s.rho, s.e)), 1, 1e-13) << describe(s.eos);
+  }
 }
 
 TEST(Eos, GaugePressureIsExactlyZeroAtTheReference) {

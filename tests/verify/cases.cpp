@@ -20,6 +20,7 @@ std::vector<VerifyCase> verification_cases() {
   verify::add_plate_cases(cases);
   verify::add_spall_cases(cases);
   verify::add_gas_metal_cases(cases);
+  verify::add_eos_cases(cases);
   return cases;
 }
 

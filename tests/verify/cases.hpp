@@ -21,5 +21,6 @@ void add_absorbing_cases(std::vector<VerifyCase>& cases);
 void add_plate_cases(std::vector<VerifyCase>& cases);
 void add_spall_cases(std::vector<VerifyCase>& cases);
 void add_gas_metal_cases(std::vector<VerifyCase>& cases);
+void add_eos_cases(std::vector<VerifyCase>& cases);
 
 } // namespace ballast::verify
