@@ -105,10 +105,9 @@ template <class Model, int Dim> double stiffening(const Model& model, const Stre
   }
 }
 
-/// Failed or molten: nothing is carried.
-template <class Model, int Dim> bool carries_nothing(const StressRows<Dim>& rows, double stiffness, int i) {
-  return (std::is_same_v<Model, SteinbergGuinan> && stiffness <= molten_shear) || (rows.damage && has_failed(rows.damage[i]));
-}
+/// What carries no deviator.
+template <class Model> bool molten(double stiffness) { return std::is_same_v<Model, SteinbergGuinan> && stiffness <= molten_shear; }
+template <int Dim> bool broken(const StressRows<Dim>& rows, int i) { return rows.damage && has_failed(rows.damage[i]); }
 
 template <int Dim> void drop_stress(const StressRows<Dim>& rows, int i) {
   for (int a = 0; a < stress_components<Dim>; ++a) {
@@ -117,14 +116,13 @@ template <int Dim> void drop_stress(const StressRows<Dim>& rows, int i) {
   rows.flow_stress[i] = 0;
 }
 
-/// Damage of cell i by a plastic increment that ends at equivalent stress q. True when the cell fails by it.
+/// Damage of cell i by a plastic increment that ends at equivalent stress q.
 template <int Dim>
-bool damaged(const Material& material, double dt, double increment, double q, double heat, const StressRows<Dim>& rows, int i) {
+void accumulate_damage(const Material& material, double dt, double increment, double q, double heat, const StressRows<Dim>& rows, int i) {
   const double p = rows.pressure[i] + rows.reference_pressure;
   const FailureState state{q > 0 ? -p / q : 0.0, increment / dt, heat};
   double& damage = rows.damage[i];
-  damage = std::min(1.0, damage + increment / failure_strain(*material.failure, state));
-  return has_failed(damage);
+  damage = std::min(most_damage, damage + increment / failure_strain(*material.failure, state));
 }
 
 template <int Dim, class Model>
@@ -148,14 +146,15 @@ int return_to_yield(const Model& model,
   for (int i = 0; i < count; ++i) {
     double scale = 1;
     const double heat = rows.energy[at + i] - material.specific_energy, stiffer = stiffening(model, rows, at + i);
-    if (carries_nothing<Model>(rows, stiffer, at + i)) {
+    if (molten<Model>(stiffer)) {
       drop_stress(rows, at + i);
       continue;
     }
     const FlowState state{rows.plastic_strain[at + i], heat, dt, stiffer};
-    const PlasticIncrement d = plastic_increment(model, state, q[i]);
+    const double shear = model.shear_modulus * stiffer;
+    const PlasticIncrement d = broken(rows, at + i) ? PlasticIncrement{q[i] / (3 * shear)} : plastic_increment(model, state, q[i]);
     if (d.value > 0) {
-      scale = std::max(0.0, 1 - 3 * (model.shear_modulus * stiffer) * d.value / q[i]); // a molten metal returns to 0, not to round-off below it
+      scale = std::max(0.0, 1 - 3 * shear * d.value / q[i]); // a molten metal returns to 0, not to round-off below it
       rows.plastic_strain[at + i] += d.value;
       rows.flow_stress[at + i] = scale * q[i];
     } else {
@@ -165,7 +164,10 @@ int return_to_yield(const Model& model,
     for (int a = 0; a < n; ++a) {
       rows.stress[a][at + i] = scale * t[a][i];
     }
-    if (rows.damage && d.value > 0 && damaged(material, dt, d.value, scale * q[i], heat, rows, at + i)) {
+    if (rows.damage && d.value > 0) {
+      accumulate_damage(material, dt, d.value, scale * q[i], heat, rows, at + i);
+    }
+    if (broken(rows, at + i)) {
       drop_stress(rows, at + i);
     }
   }
@@ -222,7 +224,7 @@ template <int Dim> void pull_back_to_yield(const Material& material, int count, 
           constexpr int n = stress_components<Dim>;
           for (int i = 0; i < count; ++i) {
             const double stiffer = stiffening(model, rows, i);
-            if (carries_nothing<Model>(rows, stiffer, i)) {
+            if (molten<Model>(stiffer) || broken(rows, i)) {
               drop_stress(rows, i);
               continue;
             }

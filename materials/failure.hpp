@@ -4,7 +4,9 @@
 // t = (mean stress)/(equivalent stress), tension-positive, not above 1.5; rate >= eps0; T* in [0, 1] as in
 // the flow stress (materials/strength). Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31. Above t = 1.5 that paper
 // lets ef fall on to a spall strain: here the spall pressure stands for it. Some published sets give ef < 0 in
-// tension: it is at least 1e-6. At D = 1 the material has failed: no deviator, no tension.
+// tension: it is at least 1e-6. From D = 1 on the material has failed: no deviator, no tension. D goes on with the
+// strain of what is broken, up to 2: a remap averages it by mass, and broken with sound matter then counts as broken
+// from half of it on instead of healing at once.
 #pragma once
 
 #include <string>
@@ -26,8 +28,8 @@ struct FailureState {
 
 double failure_strain(const JohnsonCookFailure& m, const FailureState& s);
 
-/// A remap averages damage by mass: within rounding of 1 counts as 1.
-[[nodiscard]] inline bool has_failed(double damage) { return damage >= 1 - 1e-6; }
+inline constexpr double most_damage = 2;
+[[nodiscard]] inline bool has_failed(double damage) { return damage >= 1; }
 
 std::string describe(const JohnsonCookFailure& m);
 

@@ -1,0 +1,79 @@
+// A deck's equations of state, strength and failure arrive in the scene as written.
+#include "problems/build_scene.hpp"
+#include "problems/scene_reader.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace ballast {
+namespace {
+
+SceneSpec scene_with(const std::string& material, const std::string& keys, const std::string& ambient = "1 atm") {
+  Deck deck = Deck::parse(fmt::format(R"(
+title = "one block"
+geometry = "planar"
+end_time = "1 us"
+ambient = {{ pressure = "{}" }}
+[[body]]
+name = "block"
+material = "{}"
+shape = {{ box = {{ from = ["0 mm", "0 mm"], to = ["4 mm", "4 mm"] }} }}
+[mesh]
+x = {{ from = "0 mm", to = "4 mm", size = "1 mm" }}
+y = {{ from = "0 mm", to = "4 mm", size = "1 mm" }}
+[materials.{}]
+{}
+)",
+                                      ambient, material, material, keys),
+                          "test.toml");
+  SceneSpec scene = read_scene(deck);
+  EXPECT_TRUE(deck.clean()) << deck.error_report();
+  return scene;
+}
+
+TEST(MaterialModels, ChargeStartsWithItsEnergyNotAtTheAmbientPressure) {
+  const std::string tnt = R"(eos = "jwl"
+density = 1630
+jwl_A = "371.2 GPa"
+jwl_B = "3.231 GPa"
+R1 = 4.15
+R2 = 0.95
+omega = 0.3
+)";
+  const SceneSpec s = scene_with("tnt", tnt + "detonation_energy = \"4.29 MJ/kg\"");
+  EXPECT_EQ(s.bodies[0].specific_energy, 4.29e6);
+  EXPECT_NEAR(s.bodies[0].pressure, 8.4e9, 0.1e9); // w rho e = 2.1 GPa and 6.3 GPa of the exponentials
+  const SceneSpec cold = scene_with("tnt", tnt);
+  EXPECT_NEAR(pressure(cold.materials[0].eos, 1630, cold.bodies[0].specific_energy), 101325, 1);
+}
+
+TEST(MaterialModels, LinearBulkRestsUnderTheAmbientPressure) {
+  const SceneSpec s = scene_with("liquid", "eos = \"linear_bulk\"\ndensity = 1000\nbulk_modulus = \"2.2 GPa\"", "3 atm");
+  EXPECT_EQ(s.bodies[0].pressure, 3 * 101325.0);
+  const Scene<2> scene = build_scene<2>(s, 1);
+  EXPECT_EQ(scene.blocks[0].pressure.row(scene.blocks[0].grid.cell_row(1, 0))[1], 0); // gauge, bitwise
+}
+
+TEST(MaterialModels, SteinbergGuinanTakesTheMaterialsThermalNumbers) {
+  const SceneSpec s = scene_with("lead_steinberg", "yield = \"10 MPa\"\ns3 = -1.5\nmelt_temperature = \"700 K\"\ndensity = 11000");
+  const auto& m = std::get<SteinbergGuinan>(s.materials[0].strength);
+  EXPECT_EQ(m.yield, 10e6);
+  EXPECT_EQ(m.yield_max, 100e6);
+  EXPECT_EQ(m.melt_temperature, 700);
+  EXPECT_EQ(m.eos.rho0, 11000);
+  EXPECT_EQ(std::get<CubicGruneisen>(s.materials[0].eos).s3, -1.5);
+}
+
+TEST(MaterialModels, FailureIsTheDecksAndGoesWithTheStrength) {
+  const SceneSpec changed = scene_with("steel_4340", "D1 = 0.1\nreference_rate = 2");
+  EXPECT_EQ(changed.materials[0].failure->D1, 0.1);
+  EXPECT_EQ(changed.materials[0].failure->D2, 3.44);
+  EXPECT_EQ(changed.materials[0].failure->reference_rate, 2);
+  EXPECT_FALSE(scene_with("steel_4340", "failure = \"none\"").materials[0].failure.has_value());
+  EXPECT_FALSE(scene_with("steel_4340", "strength = \"none\"").materials[0].failure.has_value());
+  const SceneSpec given = scene_with("copper_ofhc", "failure = \"johnson_cook\"\nD1 = 0.54\nD2 = 4.89\nD3 = -3.03\nD4 = 0.014\nD5 = 1.12");
+  EXPECT_EQ(given.materials[0].failure->melt_temperature, 1356);
+}
+
+} // namespace
+} // namespace ballast
