@@ -226,6 +226,8 @@ std::string reference() {
                               &cylinder(2),
                               &revolved(2),
                               &half_space(2),
+                              &stl(),
+                              &rotate(3),
                               &mesh(),
                               &mesh_axis(),
                               &boundary(),
