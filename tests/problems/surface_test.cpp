@@ -64,8 +64,36 @@ TEST(ClosedSurface, FineBallFillsAsTheSphereWithinItsChord) {
   });
   // Lines err by 1e-3 of a cell each; the sphere's part of a cell is at most sqrt(3) sides square.
   EXPECT_LT(worst, sagitta / side * std::sqrt(3.0) + 2e-3);
-  EXPECT_NEAR(volume, enclosed_volume(mesh), 2e-4); // as the analytic sphere's own gate
+  EXPECT_NEAR(volume, enclosed_volume(mesh), 1e-12); // a surface alone is cut exactly
   EXPECT_NEAR(volume, 4 * pi / 3, 4 * pi * sagitta + 2e-4);
+}
+
+TEST(ClosedSurface, VerticesAndEdgesOnTheMeshsPlanesAreCutExactly) {
+  const FacetMesh mesh = ball_mesh({0, 0, 0}, 1, 3); // vertices in the planes x, y, z = 0
+  const Shape ball = surface_of(mesh), shifted = surface_of(ball_mesh({1e-9, 2e-10, -1e-9}, 1, 3));
+  double volume = 0;
+  for_cells({-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}, 12, [&](const CellBox& c) {
+    const double f = fraction(ball, Geometry::three_d, c.lo, c.hi);
+    volume += f * 0.008;
+    EXPECT_NEAR(f, fraction(shifted, Geometry::three_d, c.lo, c.hi), 1e-6); // shift of 1e-9 in 0.2
+  });
+  EXPECT_NEAR(volume, enclosed_volume(mesh), 1e-12);
+}
+
+TEST(ClosedSurface, CutAloneOrWithOthersItCoversTheSame) {
+  const FacetMesh mesh = ball_mesh({0.02, 0.01, 0}, 1, 3);
+  const Shape alone = surface_of(mesh);
+  const Shape all{Box{{-3, -3, -3}, {3, 3, 3}}}; // by lines: a combination
+  const Shape lines{Combination{Combination::Kind::intersect, {alone, all}}};
+  for_cells({-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}, 9, [&](const CellBox& c) {
+    EXPECT_NEAR(fraction(alone, Geometry::three_d, c.lo, c.hi), fraction(lines, Geometry::three_d, c.lo, c.hi), 2e-3);
+  });
+  const Shape* bodies[] = {&all, &alone}; // the ball in something: the shares are all there is
+  double shares[2];
+  visible_fractions(bodies, Geometry::three_d, {0.9, -0.1, -0.1}, {1.1, 0.1, 0.1}, shares);
+  EXPECT_EQ(shares[0] + shares[1], 1);
+  EXPECT_GT(shares[0], 0);
+  EXPECT_GT(shares[1], 0);
 }
 
 TEST(ClosedSurface, BoxOfFacetsFillsAsTheBoxOnAnyMesh) {
