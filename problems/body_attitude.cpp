@@ -69,7 +69,6 @@ bool check_symmetry(Deck& deck, const Section& in, const SceneSpec& scene, const
 
 std::optional<Attitude> read_attitude(Deck& deck, const Section& in, const SceneSpec& scene, const Point& direction, const Point& tip) {
   Attitude out;
-  out.aim = direction;
   const char* key = leaning_key(in);
   if (scene.geometry != Geometry::three_d && (key != nullptr || in.has("towards"))) {
     deck.fail(*in.node(key != nullptr ? key : "towards"),
@@ -89,6 +88,7 @@ std::optional<Attitude> read_attitude(Deck& deck, const Section& in, const Scene
   }
   const double obliquity = in.number("obliquity", 0), offset = in.number("hit_offset", 0);
   const Point about = cross(direction, *side);
+  out.aim = obliquity != 0 ? direction : Point{};
   out.flight = rotation_about(about, obliquity);
   out.body = {rotation_about(about, obliquity + in.number("yaw", 0)), tip, {}};
   for (std::size_t k = 0; k < 3; ++k) {

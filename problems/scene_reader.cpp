@@ -294,7 +294,7 @@ void find_shot(SceneSpec& scene) {
           u.begin(), u.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
       u.begin());
   r.shot_axis = static_cast<int>(axis);
-  r.shot_direction = u[axis] < 0 ? -1 : 1;
+  r.shot_direction = first_body.velocity[axis] < 0 ? -1 : 1;
   for (const Body& b : scene.bodies) {
     if (b.material < 0 || b.material != r.target) {
       continue;

@@ -69,8 +69,8 @@ read_direction(Deck& deck, const std::string& text, Geometry geometry, DeckNode&
 /// "+z", planar "+x".
 std::string default_direction(Geometry geometry);
 
-/// How a bullet leans: `flight` turns its velocity, `body` its shape; `aim` is the direction of the
-/// shot before either.
+/// How a bullet leans: `flight` turns its velocity, `body` its shape; `aim` is the direction of
+/// an oblique shot before either, or nothing.
 struct Attitude {
   Point aim{};
   Rotation flight = Placement{}.turn;

@@ -79,6 +79,9 @@ TEST(Attitude, ObliquityTurnsBothAndOffsetMovesTheTip) {
   EXPECT_NEAR(core_of(s).axis[0], std::sin(57 * degree), 1e-15);
   EXPECT_NEAR(core_of(s).origin[0] + 28.5e-3 * core_of(s).axis[0], 2e-3, 1e-15);
   EXPECT_EQ(s.results.shot_axis, 2); // the target's normal, not the larger component
+  const SceneSpec back = m80("direction = \"-z\"\ntip = [0, 0, -0.029]\nyaw = \"2 deg\"\n");
+  EXPECT_EQ(back.results.shot_direction, -1);
+  EXPECT_GT(core_of(back).axis[0], 0);
 }
 
 TEST(Attitude, DescribedBodiesLeanAsTheLibrarysDo) {

@@ -1,8 +1,12 @@
 // Shapes that are turned and moved: sets of points, volumes, bounds.
 #include "facet_bodies.hpp"
+#include "problems/scene_reader.hpp"
 #include "problems/shape_placement.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -92,6 +96,66 @@ TEST(Placement, LensOfTwoSpheresHasItsVolume) {
   const FacetMesh ball = testing::ball_mesh({-d / 2, 0, 0}, 1, 4); // chord: 0.13 % of its volume less
   const Shape facets{Combination{Kind::intersect, {testing::surface_of(ball), right}}};
   EXPECT_NEAR(filled(facets, Geometry::three_d, 1.1, 16) / exact, 1, 3e-3);
+}
+
+// ---- from decks ----
+
+Deck read(const std::string& geometry, const std::string& shape, SceneSpec& scene) {
+  const bool flat = geometry != "3d";
+  Deck deck = Deck::parse(fmt::format("title = \"t\"\ngeometry = \"{}\"\nend_time = 1\n[[body]]\nname = \"b\"\nmaterial = \"water\"\nshape = {}\n"
+                                      "[mesh]\nx = {{ from = -3, to = 3, size = 1 }}\ny = {{ from = -3, to = 3, size = 1 }}\n{}",
+                                      geometry, shape, flat ? "" : "z = { from = -3, to = 3, size = 1 }\n"),
+                          "t.toml");
+  scene = read_scene(deck);
+  return deck;
+}
+
+TEST(Placement, DecksTurnThenMoveAndNest) {
+  SceneSpec s;
+  const Deck deck = read("3d",
+                         "{ union = [ { box = { from = [0, 0, 0], to = [2, 1, 1] }, rotate = { axis = [0, 0, 1], angle = \"90 deg\" } }, "
+                         "{ sphere = { centre = [1, 0, 0], radius = 1 }, rotate = { euler = [0, \"90 deg\", 0], about = [1, 0, 1] } } ], offset = [0, 0, 0.5] }",
+                         s);
+  ASSERT_TRUE(deck.clean()) << deck.error_report();
+  const auto& both = std::get<Combination>(s.bodies[0].shape.form);
+  EXPECT_EQ(std::get<Box>(both.parts[0].form).from, (Point{-1, 0, 0.5}));
+  EXPECT_EQ(std::get<Box>(both.parts[0].form).to, (Point{0, 2, 1.5}));
+  EXPECT_EQ(std::get<Sphere>(both.parts[1].form).centre, (Point{0, 0, 1.5}));
+  SceneSpec flat;
+  const Deck planar = read("planar", "{ box = { from = [0, 0], to = [2, 1] }, rotate = { angle = \"90 deg\" } }", flat);
+  ASSERT_TRUE(planar.clean()) << planar.error_report();
+  EXPECT_EQ(std::get<Box>(flat.bodies[0].shape.form).to[1], 2);
+  Deck again = Deck::parse(write_toml(deck.root()), "resolved.toml");
+  EXPECT_EQ(std::get<Combination>(read_scene(again).bodies[0].shape.form).parts.size(), 2u);
+}
+
+TEST(Placement, ResolvedDeckKeepsTheSurfacesFileAndItsSum) {
+  const auto path = std::filesystem::temp_directory_path() / "ballast_placed.stl";
+  const auto write = [&](double height) {
+    std::ofstream out(path);
+    out << "solid s\n";
+    for (const Facet& f : testing::box_facets({0, 0, 0}, {1, 1, height})) {
+      out << "facet\nouter loop\n";
+      for (const Point& p : f) {
+        out << fmt::format("vertex {} {} {}\n", p[0], p[1], p[2]);
+      }
+      out << "endloop\nendfacet\n";
+    }
+    out << "endsolid\n";
+  };
+  write(1);
+  SceneSpec s;
+  const Deck deck = read("3d", fmt::format("{{ stl = {{ file = \"{}\", units = \"m\" }}, offset = [0, 0, 1] }}", path.string()), s);
+  ASSERT_TRUE(deck.clean()) << deck.error_report();
+  EXPECT_EQ(bounds(s.bodies[0].shape).hi, (Point{1, 1, 2}));
+  const std::string resolved = write_toml(deck.root());
+  Deck same = Deck::parse(resolved, "elsewhere/resolved.toml");
+  read_scene(same);
+  EXPECT_TRUE(same.clean()) << same.error_report();
+  write(2);
+  Deck changed = Deck::parse(resolved, "resolved.toml");
+  read_scene(changed);
+  EXPECT_NE(changed.error_report().find("it is another one"), std::string::npos) << changed.error_report();
 }
 
 } // namespace
