@@ -121,10 +121,10 @@ std::vector<double> LateralRecord::add(double time, const AttitudeMeasure& m) {
   const double mass = m.mass > 0 ? m.mass : 1.0;
   if (!s.started) {
     s.time = time;
-    s.centre_start = m.centre;
     s.momentum = m.momentum;
     for (std::size_t d = 0; d < 3; ++d) {
       s.velocity_start[d] = m.momentum[d] / mass;
+      s.centre_start[d] = m.centre[d] - time * s.velocity_start[d];
     }
   }
   const double span = time - s.time;

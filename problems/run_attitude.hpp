@@ -46,10 +46,11 @@ public:
   struct State {
     bool started = false;
     double time = 0;
-    Point centre_start{}, velocity_start{}, momentum{};
+    Point centre_start{}, velocity_start{}; ///< straight flight, from t = 0
+    Point momentum{};
     Point deflection{}; ///< from the straight flight of the start, m
-    Point tilt{}, yaw{}, largest_yaw{};   ///< rad
-    Point force{}, largest_force{}; ///< N
+    Point tilt{}, yaw{}, largest_yaw{}; ///< rad
+    Point force{}, largest_force{};     ///< N
   };
   const State& state() const { return state_; }
   std::vector<double> memory() const;

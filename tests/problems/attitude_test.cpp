@@ -137,16 +137,16 @@ TEST(Attitude, MeasuredYawIsTheBullets) {
 TEST(Attitude, SideForceIsTheMomentumsRate) {
   LateralRecord record(m80("yaw = \"2 deg\"\n"));
   AttitudeMeasure m{.mass = 2, .centre = {1, 0, 0}, .momentum = {6, 0, 8}, .axis = {0, 0, 1}};
-  record.add(0, m);
+  record.add(0.25, m);
   m.momentum[0] = 7;
   m.centre[0] = 2.6;
-  const std::vector<double> row = record.add(0.5, m);
+  const std::vector<double> row = record.add(0.75, m);
   EXPECT_EQ(row, (std::vector<double>{2.6, 7, 2, 0, -std::atan2(7.0, 8.0)}));
   EXPECT_NEAR(record.state().deflection[0], 2.6 - 1 - 0.5 * 3, 1e-15);
   LateralRecord other(m80("yaw = \"2 deg\"\n"));
   EXPECT_EQ(other.recall(record.memory()), record.memory().size());
   m.momentum[0] = 9;
-  EXPECT_EQ(record.add(0.75, m), other.add(0.75, m)); // as after a restart
+  EXPECT_EQ(record.add(1, m), other.add(1, m)); // as after a restart
   EXPECT_EQ(record.memory(), other.memory());
 }
 
