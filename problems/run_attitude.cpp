@@ -48,10 +48,11 @@ void add_momentum(const Block<Dim>& b, double mass, const std::array<int, 3>& ce
   }
 }
 
-/// Eigenvector of the largest eigenvalue, towards the shot.
-Point long_axis(const Eigen::Matrix3d& moments, int shot_axis, double direction) {
+/// Eigenvector of the eigenvalue that stands apart from the other two, towards the shot.
+Point body_axis(const Eigen::Matrix3d& moments, int shot_axis, double direction) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
-  const Eigen::Vector3d v = solver.eigenvectors().col(2); // ascending eigenvalues
+  const Eigen::Vector3d e = solver.eigenvalues(); // ascending
+  const Eigen::Vector3d v = solver.eigenvectors().col(e[2] - e[1] >= e[1] - e[0] ? 2 : 0);
   const double side = v[shot_axis] * direction < 0 ? -1 : 1;
   return {side * v[0], side * v[1], side * v[2]};
 }
@@ -90,7 +91,7 @@ AttitudeMeasure measure_attitude(const Block<Dim>& b,
       }
     }
   });
-  m.axis = long_axis(moments / m.mass, shot_axis, direction);
+  m.axis = body_axis(moments / m.mass, shot_axis, direction);
   return m;
 }
 

@@ -3,12 +3,12 @@
 // Of the bullet's mass inside the mesh, cells as points at their centres x, nodes' velocities u:
 //   centre  X = sum m x / M,   momentum P = sum over nodes of the bullet's share of their mass times u,
 //   side force F = dP/dt between two samples, along the axes across the shot,
-//   axis: the principal axis of least inertia, that of the largest second moment
-//         S = sum m (x - X)(x - X)^T: the long axis of a bullet longer than it is wide,
+//   axis: the eigenvector of S = sum m (x - X)(x - X)^T whose eigenvalue stands apart from the other
+//         two: the axis of inertia that is the long one of a slender bullet, the short one of a flat,
 //   tilt = angle from the shot's direction to that axis, yaw = tilt - angle to the velocity P / M,
 // each in the plane of the shot and one axis across it. Axes with a plane of symmetry are left out:
-// what the mesh holds is half of something that cannot lean that way. Once a bullet is as wide as
-// it is long its long axis means nothing; a turn past 90 degrees looks like one from the other side.
+// what the mesh holds is half of something that cannot lean that way. A bullet as wide as it is long
+// has no axis; a turn past 90 degrees looks like one from the other side.
 #pragma once
 
 #include "ale/block.hpp"

@@ -204,8 +204,8 @@ const SectionSpec& results() {
         .kind = texts,
         .doc = "bodies that together are the bullet: speed, mass, extents and depth are reported; in a 3d "
                "scene also, along each axis across the shot without a plane of symmetry, centre of mass "
-               "and its deflection, momentum, side force (its rate), tilt and yaw of the long axis (the "
-               "principal axis of least inertia), all of the part inside the mesh"},
+               "and its deflection, momentum, side force (its rate), tilt and yaw of the axis (the principal "
+               "axis of inertia that stands apart from the other two), all of the part inside the mesh"},
        {.name = "target",
         .kind = text,
         .doc = "material whose cavity, energy gain and pressure are reported"}}};

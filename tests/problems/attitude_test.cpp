@@ -134,6 +134,15 @@ TEST(Attitude, MeasuredYawIsTheBullets) {
   EXPECT_NEAR(record.state().yaw[0] / degree, 0, 0.05);
 }
 
+TEST(Attitude, AxisOfAFlatBulletIsItsShortOne) {
+  const std::string disc = "[[body]]\nname = \"{}\"\nmaterial = \"lead\"\nvelocity = [0, 0, \"800 m/s\"]\n"
+                           "tip = [0, 0, -0.006]\nyaw = \"4 deg\"\nshape = {{ cylinder = {{ from = [0, 0, {}], to = [0, 0, {}], radius = 0.006 }} }}\n";
+  const SceneSpec s = scene_of(fmt::format(fmt::runtime(disc), "core", -0.008, -0.006) + fmt::format(fmt::runtime(disc), "jacket", -0.01, -0.008));
+  LateralRecord record(s);
+  record.add(0, measure(s));
+  EXPECT_NEAR(record.state().yaw[0] / degree, 4, 0.2); // 12 mm across, cells of 1 mm
+}
+
 TEST(Attitude, SideForceIsTheMomentumsRate) {
   LateralRecord record(m80("yaw = \"2 deg\"\n"));
   AttitudeMeasure m{.mass = 2, .centre = {1, 0, 0}, .momentum = {6, 0, 8}, .axis = {0, 0, 1}};
