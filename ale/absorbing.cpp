@@ -107,7 +107,8 @@ template <int Dim> void absorb_row(Block<Dim>& b, int j, int k, double dt, doubl
     whole_row = whole_row || (index[axis] == 0 && absorbs(axis, 0)) || (index[axis] == g.cells[static_cast<std::size_t>(axis)] && absorbs(axis, 1));
   }
   const double* m = b.node_mass.row(r);
-  for (int i = 0; i <= g.cells[0]; ++i) {
+  const Span nodes = b.awake.nodes(r);
+  for (int i = nodes.begin; i < nodes.end; ++i) {
     const bool edge = (i == 0 && absorbs(0, 0)) || (i == g.cells[0] && absorbs(0, 1));
     if (!(whole_row || edge) || !(m[i] > 0)) {
       continue;

@@ -54,7 +54,12 @@ void place_nodes(Block<Dim>& b, const std::array<std::vector<double>, 3>& lines)
 template <int Dim> void gather_node_mass(Block<Dim>& b, int j, int k, bool sliding) {
   const Grid& g = b.grid;
   double* m = (sliding ? b.sliding.node_mass : b.node_mass).row(g.node_row(j, k));
-  std::fill(m, m + g.cells[0] + 1, 0.0);
+  const Span nodes = b.awake.nodes(g.node_row(j, k));
+  if (nodes.empty()) {
+    return;
+  }
+  std::fill(m + nodes.begin, m + nodes.end, 0.0);
+  const Span as_low = {nodes.begin, std::min(nodes.end, g.cells[0])}, as_high = {std::max(nodes.begin - 1, 0), nodes.end - 1};
   const double* low0 = b.low_share[0].data() + g.ghost[0];
   for (int side = 0; side < (1 << (Dim - 1)); ++side) {
     const int dj = side & 1, dk = side >> 1; // 1: the cells below the node
@@ -76,10 +81,10 @@ template <int Dim> void gather_node_mass(Block<Dim>& b, int j, int k, bool slidi
         continue;
       }
       const double* mass = slot.store.row(field::mass, r);
-      for (int i = 0; i < g.cells[0]; ++i) {
+      for (int i = as_low.begin; i < as_low.end; ++i) {
         m[i] += row_share * (low0[i] * mass[i]);
       }
-      for (int i = 0; i < g.cells[0]; ++i) {
+      for (int i = as_high.begin; i < as_high.end; ++i) {
         m[i + 1] += row_share * ((1 - low0[i]) * mass[i]);
       }
     }
@@ -111,13 +116,15 @@ void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lin
   }
   b.grid = Grid(Dim, n);
   const Grid& g = b.grid;
+  b.awake = Awake(g);
   for (auto* nodes : {&b.position, &b.velocity, &b.next_position, &b.next_velocity, &b.target}) {
     nodes->fill(RowField::of_nodes(g));
   }
   b.node_mass = RowField::of_nodes(g);
   place_nodes(b, lines);
   b.position = b.target;
-  for (auto* f : {&b.volume, &b.next_volume, &b.density, &b.pressure, &b.modulus, &b.wave_speed}) {
+  b.row_least.assign(static_cast<std::size_t>(g.cell_rows()), 0);
+  for (auto* f : {&b.stable_step, &b.volume, &b.next_volume, &b.density, &b.pressure, &b.modulus, &b.wave_speed}) {
     *f = RowField::of_cells(g);
   }
   for (auto* fs : {&b.strain_rate, &b.length, &b.viscosity}) {
@@ -146,7 +153,7 @@ void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lin
   }
   for (int k = 0; k < g.cells[2]; ++k) {
     for (int j = 0; j < g.cells[1]; ++j) {
-      cell_volumes(b, b.position, j, k, b.volume.row(g.cell_row(j, k)));
+      cell_volumes(b, b.position, j, k, {0, g.cells[0]}, b.volume.row(g.cell_row(j, k)));
     }
   }
   exchange_cells(g, b.volume);
@@ -159,7 +166,7 @@ template <int Dim> void target_volumes(Block<Dim>& b, ThreadPool& pool) {
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
-        cell_volumes(b, b.target, j, k, b.target_volume.row(g.cell_row(j, k)));
+        cell_volumes(b, b.target, j, k, {0, g.cells[0]}, b.target_volume.row(g.cell_row(j, k)));
       }
     }
   });
@@ -169,7 +176,7 @@ template <int Dim> void target_volumes(Block<Dim>& b, ThreadPool& pool) {
 template <int Dim> void compute_node_mass(Block<Dim>& b, ThreadPool& pool) {
   const Grid& g = b.grid;
   const int planes = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
-  parallel_ranges(pool, planes, [&](int begin, int end, int) {
+  parallel_awake(pool, &b.awake, planes, [&](int begin, int end, int) {
     for (int plane = begin; plane < end; ++plane) {
       for (int q = 0; q < rows; ++q) {
         const int j = Dim == 3 ? q : plane, k = Dim == 3 ? plane : 0;
@@ -182,32 +189,34 @@ template <int Dim> void compute_node_mass(Block<Dim>& b, ThreadPool& pool) {
   });
 }
 
-template <int Dim> void compute_owner(Block<Dim>& b, int row) {
-  const int count = b.grid.cells[0];
+template <int Dim> void compute_owner(Block<Dim>& b, int row, Span cells) {
   std::int8_t* owner = b.owner_row(row);
-  std::fill(owner, owner + count, mixed_cell);
+  std::fill(owner + cells.begin, owner + cells.end, mixed_cell);
   for (std::size_t m = 0; m < b.materials.size(); ++m) {
     if (!b.materials[m].store.has_row(row)) {
       continue;
     }
-    mark_owner(std::as_const(b.materials[m].store).row(field::fraction, row), static_cast<int>(m), 0, count, owner);
+    mark_owner(std::as_const(b.materials[m].store).row(field::fraction, row), static_cast<int>(m), cells.begin, cells.end, owner);
   }
 }
 
-void RowRuns::scan(const std::int8_t* owner, int count) {
+void RowRuns::scan(const std::int8_t* owner, Span cells) {
   pure.clear();
   mixed.clear();
-  if (const int sole = sole_owner(owner, count); sole >= 0) {
-    pure.push_back({sole, 0, count});
+  if (cells.empty()) {
     return;
   }
-  for (int i = 0; i < count;) {
+  if (const int sole = sole_owner(owner + cells.begin, cells.count()); sole >= 0) {
+    pure.push_back({sole, cells.begin, cells.end});
+    return;
+  }
+  for (int i = cells.begin; i < cells.end;) {
     if (owner[i] == mixed_cell) {
       mixed.push_back(i++);
       continue;
     }
     int end = i + 1;
-    while (end < count && owner[end] == owner[i]) {
+    while (end < cells.end && owner[end] == owner[i]) {
       ++end;
     }
     pure.push_back({owner[i], i, end});
@@ -215,13 +224,13 @@ void RowRuns::scan(const std::int8_t* owner, int count) {
   }
 }
 
-void cell_volumes(const Block<2>& b, const std::array<RowField, 2>& x, int j, int, double* volume) {
+void cell_volumes(const Block<2>& b, const std::array<RowField, 2>& x, int j, int, Span cells, double* volume) {
   const Grid& g = b.grid;
   const double *x0 = x[0].row(g.node_row(j, 0)), *x1 = x[0].row(g.node_row(j + 1, 0));
   const double *y0 = x[1].row(g.node_row(j, 0)), *y1 = x[1].row(g.node_row(j + 1, 0));
   const auto loop = [&](auto axisymmetric) {
 #pragma omp simd
-    for (int i = 0; i < g.cells[0]; ++i) {
+    for (int i = cells.begin; i < cells.end; ++i) {
       const QuadGeometry<decltype(axisymmetric)::value> q{{x0[i], x0[i + 1], x1[i + 1], x1[i]},
                                                           {y0[i], y0[i + 1], y1[i + 1], y1[i]}};
       volume[i] = q.volume();
@@ -245,7 +254,7 @@ namespace {
 }
 } // namespace
 
-void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, int k, double* volume) {
+void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, int k, Span cells, double* volume) {
   const Grid& g = b.grid;
   const int rows[4] = {g.node_row(j, k), g.node_row(j + 1, k), g.node_row(j, k + 1), g.node_row(j + 1, k + 1)};
   const double* p[3][4];
@@ -254,9 +263,8 @@ void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, in
       p[d][c] = x[d].row(rows[c]);
     }
   }
-  const int count = g.cells[0];
 #pragma omp simd
-  for (int i = 0; i < count; ++i) {
+  for (int i = cells.begin; i < cells.end; ++i) {
     volume[i] = hexahedron_volume(p, i);
   }
 }
@@ -267,7 +275,7 @@ template void target_volumes<2>(Block<2>&, ThreadPool&);
 template void target_volumes<3>(Block<3>&, ThreadPool&);
 template void compute_node_mass<2>(Block<2>&, ThreadPool&);
 template void compute_node_mass<3>(Block<3>&, ThreadPool&);
-template void compute_owner<2>(Block<2>&, int);
-template void compute_owner<3>(Block<3>&, int);
+template void compute_owner<2>(Block<2>&, int, Span);
+template void compute_owner<3>(Block<3>&, int, Span);
 
 } // namespace ballast

@@ -6,6 +6,7 @@
 // Stress is tension-positive, pressure compression-positive. SI.
 #pragma once
 
+#include "core/awake.hpp"
 #include "core/boundary.hpp"
 #include "core/grid.hpp"
 #include "core/threads.hpp"
@@ -122,6 +123,8 @@ template <int Dim> struct Block {
   /// Of the cell, likewise: shear modulus (mixed: harmonic mean, 0 beside void or a fluid), sum of fraction x flow stress.
   RowField shear, flow_stress;
   std::array<RowField, Dim> strain_rate, length, viscosity; ///< along each logical axis
+  RowField stable_step;       ///< s, that each cell allows for a CFL number of one
+  std::vector<int> row_least; ///< by row, the cell that allows the least
   std::array<RowField, Dim> swept, mass_flux;               ///< faces, at the cell above them
   /// Interface normal of each mixed cell of a row, left to right; blocks with strength (ale/traction).
   std::vector<std::vector<std::array<double, 3>>> interface_normals;
@@ -130,6 +133,10 @@ template <int Dim> struct Block {
   remap::Sliding<Dim> sliding; ///< empty unless a material slides
   RowField damped_density;     ///< density, zero where two velocities meet: no hourglass damping there (sliding only)
   remap::Scratch remap_scratch; ///< work arrays of the remap, nothing to remember
+
+  Awake awake;                 ///< the cells that a step looks at (ale/rest)
+  double still_speed = 0;      ///< m/s; what is slower rests (ale/rest)
+  double awake_steps = 0;      ///< sum over the steps of the share of cells that were awake
 
   std::vector<MaterialSlot> materials; ///< in priority order; void last
 
@@ -181,20 +188,20 @@ template <int Dim> bool mostly_slides(const Block<Dim>& b, int r, int i) {
 template <int Dim>
 void allocate_block(Block<Dim>& block, const std::array<std::vector<double>, 3>& lines);
 
-/// Volumes (m3) of one row of cells on node positions `x`.
-void cell_volumes(const Block<2>& b, const std::array<RowField, 2>& x, int j, int k, double* volume);
-void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, int k, double* volume);
+/// Volumes (m3) of some cells of a row on node positions `x`.
+void cell_volumes(const Block<2>& b, const std::array<RowField, 2>& x, int j, int k, Span cells, double* volume);
+void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, int k, Span cells, double* volume);
 
 /// Volumes of the target mesh, ghosts too.
 template <int Dim> void target_volumes(Block<Dim>& block, ThreadPool& pool);
 
-/// Node masses from cell masses: M_p = sum of the cells' shares.
+/// Node masses of awake cells from cell masses: M_p = sum of the cells' shares.
 template <int Dim> void compute_node_mass(Block<Dim>& block, ThreadPool& pool);
 
-/// owner of a row's cells from their volume fractions.
-template <int Dim> void compute_owner(Block<Dim>& block, int row);
+/// owner of some of a row's cells from their volume fractions.
+template <int Dim> void compute_owner(Block<Dim>& block, int row, Span cells);
 
-/// Runs of a row: pure ones (material, begin, end) and mixed cells, left to right.
+/// Runs of some cells of a row: pure ones (material, begin, end) and mixed cells, left to right.
 struct RowRuns {
   struct Run {
     int material, begin, end;
@@ -202,7 +209,7 @@ struct RowRuns {
   std::vector<Run> pure;
   std::vector<int> mixed;
 
-  void scan(const std::int8_t* owner, int count);
+  void scan(const std::int8_t* owner, Span cells);
 };
 
 } // namespace ballast

@@ -26,11 +26,41 @@ template <int Dim> struct ForceRows {
   const double* viscosity[Dim];
 
   ForceRows(const Block<Dim>& block, int j, int k);
+
+  /// The same from cell i on.
+  ForceRows from(int i) const {
+    ForceRows at = *this;
+    for (int d = 0; d < Dim; ++d) {
+      for (int l = 0; l < lines; ++l) {
+        at.x[d][l] += i;
+        at.u[d][l] += i;
+      }
+      at.viscosity[d] += i;
+    }
+    for (const double** row : {&at.pressure, &at.modulus, &at.volume, &at.damped_density, &at.wave_speed, &at.shear, &at.flow_stress}) {
+      *row += *row != nullptr ? i : 0;
+    }
+    for (const double*& row : at.stress) {
+      row += row != nullptr ? i : 0;
+    }
+    return at;
+  }
 };
 
 /// Corner forces of a row: f[corner][component] points to `count` doubles.
 template <int Dim> struct CornerRows {
   double* f[1 << Dim][Dim];
+
+  /// The same from cell i on.
+  CornerRows from(int i) const {
+    CornerRows at = *this;
+    for (auto& corner : at.f) {
+      for (double*& component : corner) {
+        component += i;
+      }
+    }
+    return at;
+  }
 };
 
 /// What the work pass needs besides: the volume change done by mean velocities, the compression up to
@@ -39,6 +69,18 @@ template <int Dim> struct WorkRows {
   static constexpr int gradient_components = Dim == 2 ? 5 : 9; ///< 2D: xx xy yx yy, hoop; 3D: row-major
   double *swept_volume, *compression, *work;
   double* gradient[gradient_components]; ///< null without strength
+
+  /// The same from cell i on.
+  WorkRows from(int i) const {
+    WorkRows at = *this;
+    at.swept_volume += i;
+    at.compression += i;
+    at.work += i;
+    for (double*& component : at.gradient) {
+      component += component != nullptr ? i : 0;
+    }
+    return at;
+  }
 };
 
 struct ForceCoefficients {

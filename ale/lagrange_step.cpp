@@ -3,6 +3,7 @@
 #include "ale/lagrange_parts.hpp"
 #include "ale/outflow.hpp"
 #include "ale/phases.hpp"
+#include "ale/rest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +21,14 @@ template <int Dim> class CornerSlab {
 public:
   explicit CornerSlab(const Grid& g)
       : pitch_(g.cells[0] + 2), rows_(Dim == 3 ? g.cells[1] + 2 : 1),
-        data_(static_cast<std::size_t>(components * pitch_ * rows_), 0.0) {}
+        data_(static_cast<std::size_t>(components * pitch_ * rows_), 0.0), clean_(static_cast<std::size_t>(rows_), 1) {}
 
-  /// Row r (-1 .. n in 3D, 0 in 2D).
+  /// Row r (-1 .. n in 3D, 0 in 2D), to be written: zero but where it is written now.
+  CornerRows<Dim> blank_row(int r) {
+    clear(Dim == 3 ? r + 1 : 0);
+    clean_[static_cast<std::size_t>(Dim == 3 ? r + 1 : 0)] = 0;
+    return row(r);
+  }
   CornerRows<Dim> row(int r) {
     CornerRows<Dim> out{};
     for (int p = 0; p < (1 << Dim); ++p) {
@@ -32,37 +38,57 @@ public:
     }
     return out;
   }
-  void clear() { std::fill(data_.begin(), data_.end(), 0.0); }
-  void swap(CornerSlab& other) { data_.swap(other.data_); }
+  void clear() {
+    for (int at = 0; at < rows_; ++at) {
+      clear(at);
+    }
+  }
+  void swap(CornerSlab& other) {
+    data_.swap(other.data_);
+    clean_.swap(other.clean_);
+  }
 
 private:
   static constexpr int components = Dim << Dim;
+
+  void clear(int at) {
+    if (clean_[static_cast<std::size_t>(at)] == 0) {
+      double* first = data_.data() + at * components * pitch_;
+      std::fill(first, first + components * pitch_, 0.0);
+      clean_[static_cast<std::size_t>(at)] = 1;
+    }
+  }
+
   int pitch_, rows_;
   std::vector<double> data_;
+  std::vector<char> clean_; ///< by row: all zero
 };
 
 template <int Dim>
 void fill_slab(const Block<Dim>& b, const ForceCoefficients& c, int slab, CornerSlab<Dim>& out) {
   const Grid& g = b.grid;
+  out.clear();
   if (slab < 0 || slab >= g.slabs()) {
-    out.clear();
     return;
   }
   for (int q = 0; q < g.rows_per_slab(); ++q) {
     const auto [j, k] = g.in_slab(slab, q);
-    corner_forces(b, ForceRows<Dim>(b, j, k), c, g.cells[0], out.row(q));
+    const Span cells = b.awake.cells(g.cell_row(j, k));
+    if (!cells.empty()) {
+      corner_forces(b, ForceRows<Dim>(b, j, k).from(cells.begin), c, cells.count(), out.blank_row(q).from(cells.begin));
+    }
   }
 }
 
 /// Sums the corners at node row q of the plane between `below` and `here`, per component.
 template <int Dim>
-void gather(CornerSlab<Dim>& below, CornerSlab<Dim>& here, int q, int nodes, double* const (&force)[Dim]) {
+void gather(CornerSlab<Dim>& below, CornerSlab<Dim>& here, int q, Span nodes, double* const (&force)[Dim]) {
   const auto add = [&](const CornerRows<Dim>& rows, int at_i, int at_im1) {
     for (int d = 0; d < Dim; ++d) {
       const double *a = rows.f[at_i][d], *c = rows.f[at_im1][d] - 1;
       double* f = force[d];
 #pragma omp simd
-      for (int i = 0; i < nodes; ++i) {
+      for (int i = nodes.begin; i < nodes.end; ++i) {
         f[i] += a[i] + c[i];
       }
     }
@@ -80,13 +106,13 @@ void gather(CornerSlab<Dim>& below, CornerSlab<Dim>& here, int q, int nodes, dou
 
 /// Node velocities of one row from forces; boundary conditions come after, by rows.
 template <int Dim>
-void accelerate_row(Block<Dim>& b, int r, double dt, int nodes, double* const (&force)[Dim]) {
+void accelerate_row(Block<Dim>& b, int r, double dt, Span nodes, double* const (&force)[Dim]) {
   const double* m = b.node_mass.row(r);
   for (std::size_t d = 0; d < Dim; ++d) {
     const double *f = force[d], *u = b.velocity[d].row(r);
     double* next = b.next_velocity[d].row(r);
 #pragma omp simd
-    for (int i = 0; i < nodes; ++i) {
+    for (int i = nodes.begin; i < nodes.end; ++i) {
       next[i] = u[i] + (m[i] > 0 ? dt * f[i] / m[i] : 0.0);
     }
   }
@@ -94,13 +120,13 @@ void accelerate_row(Block<Dim>& b, int r, double dt, int nodes, double* const (&
 
 /// The same where two velocities meet: the force along their jump goes to both as they move the node (remap/mesh.hpp,
 /// Sliding), so the jump changes.
-template <int Dim> void accelerate_apart(Block<Dim>& b, int r, double dt, int nodes, double* const (&force)[Dim]) {
+template <int Dim> void accelerate_apart(Block<Dim>& b, int r, double dt, Span nodes, double* const (&force)[Dim]) {
   remap::Sliding<Dim>& s = b.sliding;
   const double *m = b.node_mass.row(r), *ms = s.node_mass.row(r);
   for (std::size_t d = 0; d < Dim; ++d) {
-    std::copy(s.jump[d].row(r), s.jump[d].row(r) + nodes, s.next_jump[d].row(r));
+    std::copy(s.jump[d].row(r) + nodes.begin, s.jump[d].row(r) + nodes.end, s.next_jump[d].row(r) + nodes.begin);
   }
-  for (int i = 0; i < nodes; ++i) {
+  for (int i = nodes.begin; i < nodes.end; ++i) {
     double square = 0, along = 0;
     for (std::size_t d = 0; d < Dim; ++d) {
       const double jump = s.jump[d].row(r)[i];
@@ -126,6 +152,7 @@ template <int Dim>
 void bound_row(Block<Dim>& b, int j, int k, double dt, double* const (&force)[Dim], BoundaryEffect& effect) {
   const Grid& g = b.grid;
   const int r = b.grid.node_row(j, k);
+  const Span nodes = b.awake.nodes(r);
   const double* m = b.node_mass.row(r);
   const int index[3] = {0, j, k};
   const auto set = [&](int i, int axis, int side) {
@@ -148,14 +175,18 @@ void bound_row(Block<Dim>& b, int j, int k, double dt, double* const (&force)[Di
     const int n = g.cells[static_cast<std::size_t>(axis)];
     for (int side = 0; side < 2; ++side) {
       if (index[axis] == (side == 0 ? 0 : n)) {
-        for (int i = 0; i <= g.cells[0]; ++i) {
+        for (int i = nodes.begin; i < nodes.end; ++i) {
           set(i, axis, side);
         }
       }
     }
   }
-  set(0, 0, 0);
-  set(g.cells[0], 0, 1);
+  if (nodes.begin == 0) {
+    set(0, 0, 0);
+  }
+  if (nodes.end == g.cells[0] + 1) {
+    set(g.cells[0], 0, 1);
+  }
 }
 
 template <int Dim>
@@ -165,13 +196,12 @@ BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
   const ForceCoefficients c = force_coefficients(scene.numerics, dt);
   const bool absorbs = b.boundary.any(BoundaryKind::absorbing);
   std::vector<BoundaryEffect> effects(static_cast<std::size_t>(planes));
-  parallel_ranges(*scene.pool, planes, [&](int begin, int end, int) {
+  parallel_awake(*scene.pool, &b.awake, planes, [&](int begin, int end, int) {
     CornerSlab<Dim> below(g), here(g);
-    const int nodes = g.cells[0] + 1;
-    std::vector<double> buffer(static_cast<std::size_t>(Dim * nodes));
+    std::vector<double> buffer(static_cast<std::size_t>(Dim * (g.cells[0] + 1)));
     double* force[Dim];
     for (int d = 0; d < Dim; ++d) {
-      force[d] = buffer.data() + d * nodes;
+      force[d] = buffer.data() + d * (g.cells[0] + 1);
     }
     fill_slab(b, c, begin - 1, below);
     for (int plane = begin; plane < end; ++plane) {
@@ -179,7 +209,13 @@ BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
       for (int q = 0; q < (Dim == 3 ? g.cells[1] + 1 : 1); ++q) {
         const int j = Dim == 3 ? q : plane, k = Dim == 3 ? plane : 0;
         const int r = g.node_row(j, k);
-        std::fill(buffer.begin(), buffer.end(), 0.0);
+        const Span nodes = b.awake.nodes(r);
+        if (nodes.empty()) {
+          continue;
+        }
+        for (double* f : force) {
+          std::fill(f + nodes.begin, f + nodes.end, 0.0);
+        }
         gather(below, here, q, nodes, force);
         accelerate_row(b, r, dt, nodes, force);
         if (b.any_sliding()) {
@@ -189,11 +225,12 @@ BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
           absorb_row(b, j, k, dt, force, effects[static_cast<std::size_t>(plane)]);
         }
         bound_row(b, j, k, dt, force, effects[static_cast<std::size_t>(plane)]);
+        hold_still(b, r, effects[static_cast<std::size_t>(plane)]);
         for (std::size_t d = 0; d < Dim; ++d) {
           const double *x = b.position[d].row(r), *u = b.velocity[d].row(r), *v = b.next_velocity[d].row(r);
           double* next = b.next_position[d].row(r);
 #pragma omp simd
-          for (int i = 0; i < nodes; ++i) {
+          for (int i = nodes.begin; i < nodes.end; ++i) {
             next[i] = x[i] + 0.5 * dt * (u[i] + v[i]);
           }
         }
@@ -220,15 +257,16 @@ struct WorstCell {
 template <int Dim> WorstCell move_cells(Scene<Dim>& scene, Block<Dim>& b) {
   const Grid& g = b.grid;
   std::vector<WorstCell> worst(static_cast<std::size_t>(g.slabs()));
-  parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
+  parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
         const int r = g.cell_row(j, k);
-        cell_volumes(b, b.next_position, j, k, b.next_volume.row(r));
+        const Span cells = b.awake.cells(r);
+        cell_volumes(b, b.next_position, j, k, cells, b.next_volume.row(r));
         const double *v = b.volume.row(r), *next = b.next_volume.row(r);
         WorstCell& w = worst[static_cast<std::size_t>(s)];
-        for (int i = 0; i < g.cells[0]; ++i) {
+        for (int i = cells.begin; i < cells.end; ++i) {
           if (!(next[i] >= w.ratio * v[i]) && !std::isnan(w.ratio)) {
             w = {next[i] / v[i], {i, j, k}};
           }

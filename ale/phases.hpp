@@ -10,11 +10,11 @@ namespace ballast {
 /// sound speed squared is negative or a value is not finite.
 template <int Dim> void update_state(Block<Dim>& block, ThreadPool& pool);
 
-/// Owner and state of a whole row: the only way they come about, so that a restart recomputes the same bits. `runs`
+/// Owner and state of a row's awake cells: the only way they come about, so that a restart recomputes the same bits. `runs`
 /// and `rho` (a value a cell) are scratch.
 template <int Dim> void row_state(Block<Dim>& block, int row, RowRuns& runs, std::vector<double>& rho);
 
-/// Pressures, moduli and shear moduli of one row of a material whose shear modulus depends on its state.
+/// Pressures, moduli and shear moduli of the awake cells of one row of a material whose shear modulus depends on its state.
 template <int Dim> void refresh_shear(Block<Dim>& block, MaterialSlot& slot, int row);
 
 /// Throws NumericalFailure naming the cell, material and quantity when the row's state is not finite.
@@ -28,6 +28,13 @@ template <int Dim> long open_voids(Block<Dim>& block, ThreadPool& pool);
 /// cell) inside a body where that does not bring a material to its spall pressure (`spall`: whether anything can
 /// spall). No mass or energy moves. Returns the number of cells.
 template <int Dim> long close_voids(Block<Dim>& block, ThreadPool& pool, bool spall = true);
+
+/// Whether close_voids would close cell (i, j, k), mixed.
+template <int Dim> bool to_be_closed(const Block<Dim>& block, int i, int j, int k, bool spall);
+
+/// Energy (J/kg) that a gas beside condensed matter comes to by conduction, at the temperature of its start. A gas that
+/// starts within 5 % of the ambient temperature is taken to start at it: what is at rest stays so to the bit.
+double conduction_wall(const MaterialSlot& slot);
 
 /// Strain rates, lengths and viscosity along the logical axes, and the largest stable step.
 template <int Dim> DtLimit stable_dt(Scene<Dim>& scene);

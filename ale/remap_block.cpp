@@ -1,6 +1,7 @@
 // Remap of a block: remap/ moves the conserved quantities, this brings the materials back to a state.
 #include "ale/outflow.hpp"
 #include "ale/phases.hpp"
+#include "ale/rest.hpp"
 #include "ale/strength_update.hpp"
 #include "core/error.hpp"
 #include "remap/mesh.hpp"
@@ -118,8 +119,9 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
                      .has_void = b.void_index() >= 0,
                      .owner = b.owner,
                      .scratch = &b.remap_scratch,
+                     .awake = &b.awake,
                      .exchange_velocity = [&b](RowField& f, int component) {
-                       exchange_nodes(b.grid, b.boundary, component, f);
+                       exchange_nodes(b.grid, b.boundary, component, f, &b.awake);
                        rest_ahead(b, f);
                      }};
   m.sliding = b.any_sliding() ? &b.sliding : nullptr;
@@ -144,22 +146,52 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
   return m;
 }
 
-/// No jump at nodes that hold only one of the two, or nothing: slivers of them were dropped since the jump was made.
-template <int Dim> void settle_jumps(Block<Dim>& b) {
-  const auto &mass = b.node_mass.data(), &sliding = b.sliding.node_mass.data();
-  for (auto& jump : b.sliding.jump) {
-    for (std::size_t i = 0; i < jump.data().size(); ++i) {
-      jump.data()[i] = sliding[i] > 0 && sliding[i] < mass[i] ? jump.data()[i] : 0.0;
+/// Calls row(r, span of awake nodes) for every row of nodes.
+template <int Dim, class Row> void for_node_rows(const Block<Dim>& b, Row&& row) {
+  const Grid& g = b.grid;
+  for (int k = 0; k < (Dim == 3 ? g.cells[2] + 1 : 1); ++k) {
+    for (int j = 0; j <= g.cells[1]; ++j) {
+      row(g.node_row(j, k), b.awake.nodes(g.node_row(j, k)));
     }
   }
 }
 
+/// No jump at nodes that hold only one of the two, or nothing: slivers of them were dropped since the jump was made.
+template <int Dim> void settle_jumps(Block<Dim>& b) {
+  for_node_rows(b, [&](int r, Span nodes) {
+    const double *mass = b.node_mass.row(r), *sliding = b.sliding.node_mass.row(r);
+    for (auto& component : b.sliding.jump) {
+      double* jump = component.row(r);
+      for (int i = nodes.begin; i < nodes.end; ++i) {
+        jump[i] = sliding[i] > 0 && sliding[i] < mass[i] ? jump[i] : 0.0;
+      }
+    }
+  });
+}
+
 /// Nodes without mass rest: nothing there moves.
 template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
-  const auto& mass = b.node_mass.data();
-  for (auto& u : b.velocity) {
-    for (std::size_t i = 0; i < mass.size(); ++i) {
-      u.data()[i] = mass[i] > 0 ? u.data()[i] : 0.0;
+  for_node_rows(b, [&](int r, Span nodes) {
+    const double* mass = b.node_mass.row(r);
+    for (auto& component : b.velocity) {
+      double* u = component.row(r);
+      for (int i = nodes.begin; i < nodes.end; ++i) {
+        u[i] = mass[i] > 0 ? u[i] : 0.0;
+      }
+    }
+  });
+}
+
+/// Volumes of the target mesh, exactly, without the sweeps' round-off.
+template <int Dim> void take_target_volume(Block<Dim>& b) {
+  const Grid& g = b.grid;
+  for (int r = 0; r < g.cell_rows(); ++r) { // ghosts included
+    const Span cells = b.awake.cells(r);
+    const bool first = cells.begin == 0, last = cells.end == g.cells[0];
+    if (!cells.empty()) {
+      const double* from = b.target_volume.row(r);
+      std::copy(from + cells.begin - (first ? g.ghost[0] : 0), from + cells.end + (last ? g.ghost[0] : 0),
+                b.volume.row(r) + cells.begin - (first ? g.ghost[0] : 0));
     }
   }
 }
@@ -198,7 +230,7 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
                                        "target mesh; remap more often (motion.remap_every)",
                                        b.name, c[0], c[1], c[2], contents(b, c)));
   }
-  b.volume.data() = b.target_volume.data(); // exactly, without the sweeps' round-off
+  take_target_volume(b);
   compute_node_mass(b, *scene.pool);
   if (b.any_sliding()) {
     settle_jumps(b);
@@ -207,6 +239,7 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
     rest_massless_nodes(b);
   }
   hold_outflow(b, leaving, scene.ledger);
+  hold_still(b, *scene.pool, scene.ledger);
   if (b.any_strength()) {
     pull_back_to_yield(b, *scene.pool);
   }

@@ -26,6 +26,7 @@ struct Numerics {
   double dt_max = std::numeric_limits<double>::infinity();
   double max_volume_change = 0.2; ///< of a cell in one step
   bool spall = true;
+  bool sleeping = true; ///< what rests is passed over: the same bits, faster (ale/rest)
 };
 
 /// What decided the time step.

@@ -1,5 +1,6 @@
 #include "ale/simulation.hpp"
 
+#include "ale/rest.hpp"
 #include "ale/strength_update.hpp"
 #include "ale/traction.hpp"
 
@@ -16,6 +17,7 @@ template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
       remap_block(scene, block, clock.step);
     }
     new_state(scene, block, due);
+    follow_rest(scene, block, due);
   }
   clock.advance();
 }
@@ -81,6 +83,7 @@ template <int Dim> void prepare(Scene<Dim>& scene) {
       exchange_nodes(b.grid, b.boundary, static_cast<int>(d), b.velocity[d]);
     }
     b.closure = scene.numerics.closure;
+    b.still_speed = still_speed_of(b);
     start_motion(b);
     pull_back_to_yield(b, *scene.pool);
     update_state(b, *scene.pool);

@@ -160,12 +160,13 @@ template <int Dim> void mixed_state(Block<Dim>& b, int r, int i, std::vector<dou
 
 template <int Dim> BadCell check_row(const Block<Dim>& b, int j, int k) {
   const int r = b.grid.cell_row(j, k);
+  const Span cells = b.awake.cells(r);
   const double *p = b.pressure.row(r), *c = b.wave_speed.row(r);
   bool good = true;
-  for (int i = 0; i < b.grid.cells[0]; ++i) {
+  for (int i = cells.begin; i < cells.end; ++i) {
     good = good && std::isfinite(p[i]) && std::isfinite(c[i]); // sqrt of a negative modulus is NaN
   }
-  for (int i = 0; !good && i < b.grid.cells[0]; ++i) {
+  for (int i = cells.begin; !good && i < cells.end; ++i) {
     if (std::isfinite(p[i]) && std::isfinite(c[i])) {
       continue;
     }
@@ -200,7 +201,8 @@ template <int Dim> void report(const Block<Dim>& b, const BadCell& c) {
 template <int Dim> void refresh_shear(Block<Dim>& b, MaterialSlot& slot, int r) {
   std::vector<double> rho(1);
   const double* f = std::as_const(slot.store).row(field::fraction, r);
-  for (int i = 0; i < b.grid.cells[0]; ++i) {
+  const Span cells = b.awake.cells(r);
+  for (int i = cells.begin; i < cells.end; ++i) {
     if (f[i] > 0) {
       evaluate(slot, b.reference_pressure, r, i, 1, b.volume.row(r), rho);
     }
@@ -208,8 +210,8 @@ template <int Dim> void refresh_shear(Block<Dim>& b, MaterialSlot& slot, int r) 
 }
 
 template <int Dim> void row_state(Block<Dim>& b, int r, RowRuns& runs, std::vector<double>& rho) {
-  compute_owner(b, r);
-  runs.scan(b.owner_row(r), b.grid.cells[0]);
+  compute_owner(b, r, b.awake.cells(r));
+  runs.scan(b.owner_row(r), b.awake.cells(r));
   for (const RowRuns::Run& run : runs.pure) {
     pure_run(b, r, run, rho);
   }
@@ -225,12 +227,13 @@ template <int Dim> static void row_damping(Block<Dim>& b, int j, int k) {
   const int r = g.cell_row(j, k);
   const double* rho = b.density.row(r);
   double* damped = b.damped_density.row(r);
-  std::copy(rho, rho + g.cells[0], damped);
+  const Span cells = b.awake.cells(r);
+  std::copy(rho + cells.begin, rho + cells.end, damped + cells.begin);
   for (int side = 0; side < (1 << (Dim - 1)); ++side) {
     const int nr = g.node_row(j + (side & 1), k + (side >> 1 & 1));
     for (std::size_t d = 0; d < Dim; ++d) {
       const double* jump = b.sliding.jump[d].row(nr);
-      for (int i = 0; i < g.cells[0]; ++i) {
+      for (int i = cells.begin; i < cells.end; ++i) {
         damped[i] = (jump[i] != 0) | (jump[i + 1] != 0) ? 0.0 : damped[i];
       }
     }
@@ -240,13 +243,16 @@ template <int Dim> static void row_damping(Block<Dim>& b, int j, int k) {
 template <int Dim> void update_state(Block<Dim>& b, ThreadPool& pool) {
   const Grid& g = b.grid;
   std::vector<BadCell> bad(static_cast<std::size_t>(g.slabs()));
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+  parallel_awake(pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
     std::vector<double> rho(static_cast<std::size_t>(g.cells[0]));
     RowRuns runs;
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
         const int r = g.cell_row(j, k);
+        if (b.awake.cells(r).empty()) {
+          continue;
+        }
         row_state(b, r, runs, rho);
         if (b.any_sliding()) {
           row_damping(b, j, k);

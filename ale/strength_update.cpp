@@ -273,21 +273,22 @@ template void relax_slivers<3>(const double*, int, const StressRows<3>&);
 
 template <int Dim> void pull_back_to_yield(Block<Dim>& b, ThreadPool& pool) {
   const Grid& g = b.grid;
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+  parallel_awake(pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
         const int r = g.cell_row(j, k);
+        const Span cells = b.awake.cells(r);
         for (MaterialSlot& slot : b.materials) {
-          if (!slot.strength || !slot.store.has_row(r)) {
+          if (cells.empty() || !slot.strength || !slot.store.has_row(r)) {
             continue;
           }
-          const StressRows<Dim> rows = stress_rows<Dim>(slot, b.reference_pressure, r, 0);
+          const StressRows<Dim> rows = stress_rows<Dim>(slot, b.reference_pressure, r, cells.begin);
           if (slot.variable_shear) {
             refresh_shear(b, slot, r); // the remap has moved the state under it
           }
-          pull_back_to_yield<Dim>(slot.material, g.cells[0], rows);
-          relax_slivers(std::as_const(slot.store).row(field::fraction, r), g.cells[0], rows);
+          pull_back_to_yield<Dim>(slot.material, cells.count(), rows);
+          relax_slivers(std::as_const(slot.store).row(field::fraction, r) + cells.begin, cells.count(), rows);
         }
       }
     }

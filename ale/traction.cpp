@@ -254,6 +254,23 @@ template <int Dim> void traction_cell(Block<Dim>& b, int r, int i, const Eigen::
   b.modulus.row(r)[i] = std::max(0.0, cp.modulus - n.squaredNorm() * 4 / 3 * shear); // the force adds it for dev D
 }
 
+/// Makes the row's list of normals as long as its mixed cells are many, `awake` of them awake; those asleep keep theirs.
+/// Returns the place of the first one awake.
+template <int Dim> std::size_t make_room(Block<Dim>& b, int r, std::size_t awake) {
+  auto& normals = b.interface_normals[static_cast<std::size_t>(r)];
+  const Span cells = b.awake.cells(r);
+  const std::int8_t* owner = b.owner_row(r);
+  const auto before = std::count(owner, owner + cells.begin, mixed_cell);
+  const auto after = std::count(owner + cells.end, owner + b.grid.cells[0], mixed_cell);
+  const auto old = static_cast<std::ptrdiff_t>(normals.size()) - before - after, now = static_cast<std::ptrdiff_t>(awake);
+  if (old > now) {
+    normals.erase(normals.begin() + before + now, normals.begin() + before + old);
+  } else {
+    normals.insert(normals.begin() + before + old, static_cast<std::size_t>(now - old), {0, 0, 0});
+  }
+  return static_cast<std::size_t>(before);
+}
+
 } // namespace
 
 template <> Eigen::Matrix3d gradient_of<2>(const WorkRows<2>& w, int i) {
@@ -276,19 +293,23 @@ template <int Dim> void update_traction(Block<Dim>& b, ThreadPool& pool) {
   }
   const Grid& g = b.grid;
   b.interface_normals.resize(static_cast<std::size_t>(g.cell_rows()));
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+  parallel_awake(pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
     RowRuns runs;
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
         const int r = g.cell_row(j, k);
+        const Span awake = b.awake.cells(r);
+        if (awake.empty()) {
+          continue;
+        }
+        runs.scan(b.owner_row(r), awake);
+        std::size_t at = make_room(b, r, runs.mixed.size());
         auto& normals = b.interface_normals[static_cast<std::size_t>(r)];
-        normals.clear();
-        runs.scan(b.owner_row(r), g.cells[0]);
         for (const int i : runs.mixed) {
           const Contents contents = contents_of(b, r, i);
           const Eigen::Vector3d n = normal_of(b, contents, {i, j, k});
-          normals.push_back({n[0], n[1], n[2]});
+          normals[at++] = {n[0], n[1], n[2]};
           cut_tractions(b, contents, n, r, i);
           traction_cell(b, r, i, n);
         }

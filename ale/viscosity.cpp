@@ -26,7 +26,7 @@ std::string name_of(DtCause cause) {
 
 namespace {
 
-template <bool Axisymmetric> void rates_2d(Block<2>& b, int j) {
+template <bool Axisymmetric> void rates_2d(Block<2>& b, int j, Span cells) {
   const Grid& g = b.grid;
   const double *x0 = b.position[0].row(g.node_row(j, 0)), *x1 = b.position[0].row(g.node_row(j + 1, 0));
   const double *y0 = b.position[1].row(g.node_row(j, 0)), *y1 = b.position[1].row(g.node_row(j + 1, 0));
@@ -37,7 +37,7 @@ template <bool Axisymmetric> void rates_2d(Block<2>& b, int j) {
   double *l0 = b.length[0].row(r), *l1 = b.length[1].row(r);
   const double* volume = b.volume.row(r);
 #pragma omp simd
-  for (int i = 0; i < g.cells[0]; ++i) {
+  for (int i = cells.begin; i < cells.end; ++i) {
     const QuadGeometry<Axisymmetric> q{{x0[i], x0[i + 1], x1[i + 1], x1[i]},
                                        {y0[i], y0[i + 1], y1[i + 1], y1[i]}};
     const double u[4] = {u0[i], u0[i + 1], u1[i + 1], u1[i]}, v[4] = {v0[i], v0[i + 1], v1[i + 1], v1[i]};
@@ -62,7 +62,7 @@ template <bool Axisymmetric> void rates_2d(Block<2>& b, int j) {
   }
 }
 
-void rates(Block<2>& b, int j, int) { b.axisymmetric ? rates_2d<true>(b, j) : rates_2d<false>(b, j); }
+void rates(Block<2>& b, int j, int, Span cells) { b.axisymmetric ? rates_2d<true>(b, j, cells) : rates_2d<false>(b, j, cells); }
 
 struct V3 {
   double x, y, z;
@@ -99,14 +99,14 @@ struct HexRates {
           {16 * v / area_of(t1, t2), 16 * v / area_of(t2, t0), 16 * v / area_of(t0, t1)}};
 }
 
-void rates(Block<3>& b, int j, int k) {
+void rates(Block<3>& b, int j, int k, Span cells) {
   const Grid& g = b.grid;
   const ForceRows<3> in(b, j, k);
-  const int r = g.cell_row(j, k), count = g.cells[0];
+  const int r = g.cell_row(j, k);
   double *e0 = b.strain_rate[0].row(r), *e1 = b.strain_rate[1].row(r), *e2 = b.strain_rate[2].row(r);
   double *l0 = b.length[0].row(r), *l1 = b.length[1].row(r), *l2 = b.length[2].row(r);
 #pragma omp simd
-  for (int i = 0; i < count; ++i) {
+  for (int i = cells.begin; i < cells.end; ++i) {
     const HexRates h = hex_rates(in, i);
     e0[i] = h.rate[0];
     e1[i] = h.rate[1];
@@ -131,7 +131,7 @@ struct ViscosityCoefficients {
 };
 
 /// q of one axis of one row, and the step it allows, folded into `dt`.
-void viscosity_row(int count,
+void viscosity_row(Span cells,
                    const ViscosityCoefficients& c,
                    const double* below,
                    const double* here,
@@ -144,7 +144,7 @@ void viscosity_row(int count,
                    double* dt) {
   const double quadratic = c.quadratic, linear = c.linear;
 #pragma omp simd
-  for (int i = 0; i < count; ++i) {
+  for (int i = cells.begin; i < cells.end; ++i) {
     const double e = here[i];
     const double sound = wave_speed[i];
     // A cell with void has no stiffness (modulus 0): the void absorbs the closing, nothing to smear. Cold
@@ -165,7 +165,8 @@ void viscosity_row(int count,
 template <int Dim> void spare_shear(Block<Dim>& b, int j, int k) {
   const int r = b.grid.cell_row(j, k);
   const double *rho = b.density.row(r), *damped = b.damped_density.row(r);
-  for (int i = 0; i < b.grid.cells[0]; ++i) {
+  const Span cells = b.awake.cells(r);
+  for (int i = cells.begin; i < cells.end; ++i) {
     if (damped[i] == rho[i]) {
       continue;
     }
@@ -198,67 +199,81 @@ template <int Dim> DtLimit fastest_cell(const Block<Dim>& b, int j, int k, doubl
   return {dt, 0, {-1, j, k}, -1, DtCause::volume_change};
 }
 
+/// Viscosity of a row's awake cells, the step (for a CFL number of one) that each cell allows, and the row's least.
+template <int Dim> void update_row(Block<Dim>& b, const Numerics& n, int j, int k) {
+  const Grid& g = b.grid;
+  const int r = g.cell_row(j, k);
+  const Span cells = b.awake.cells(r);
+  const ViscosityCoefficients c{n.quadratic_q * (2.0 / 3.0), n.linear_q};
+  double* dt = b.stable_step.row(r);
+  std::fill(dt + cells.begin, dt + cells.end, std::numeric_limits<double>::infinity());
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const RowField& e = b.strain_rate[d];
+    const int stride = g.cell_row_stride(static_cast<int>(d)), step = d == 0 ? 1 : 0;
+    viscosity_row(cells, c, e.row(r - stride) - step, e.row(r), e.row(r + stride) + step, b.length[d].row(r), b.density.row(r),
+                  b.wave_speed.row(r), b.modulus.row(r), b.viscosity[d].row(r), dt);
+  }
+  if (b.any_sliding()) {
+    spare_shear(b, j, k);
+  }
+  b.row_least[static_cast<std::size_t>(r)] = static_cast<int>(std::min_element(dt, dt + g.cells[0]) - dt);
+}
+
+/// Lowers `limit` to what a row allows; of a row asleep it is known.
+template <int Dim> void limit_row(Block<Dim>& b, const Numerics& n, int j, int k, DtLimit& limit) {
+  const int r = b.grid.cell_row(j, k);
+  const Span cells = b.awake.cells(r);
+  if (!cells.empty()) {
+    update_row(b, n, j, k);
+  }
+  const int i = b.row_least[static_cast<std::size_t>(r)];
+  const double dt = n.cfl * b.stable_step.row(r)[i];
+  if (dt < limit.dt) {
+    bool viscous = false;
+    for (const RowField& q_axis : b.viscosity) {
+      viscous = viscous || q_axis.row(r)[i] > 0;
+    }
+    limit = {dt, 0, {i, j, k}, b.owner_row(r)[i], viscous ? DtCause::viscosity : DtCause::sound};
+  }
+  double fastest = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const double* e = b.strain_rate[d].row(r);
+#pragma omp simd reduction(max : fastest)
+    for (int cell = cells.begin; cell < cells.end; ++cell) {
+      fastest = std::max(fastest, std::abs(e[cell]));
+    }
+  }
+  if (n.max_volume_change < limit.dt * fastest) {
+    limit = fastest_cell(b, j, k, n.max_volume_change / fastest, fastest);
+  }
+}
+
 } // namespace
 
 template <int Dim> DtLimit stable_dt(Scene<Dim>& scene) {
   DtLimit best;
   const Numerics& n = scene.numerics;
-  const ViscosityCoefficients c{n.quadratic_q * (2.0 / 3.0), n.linear_q};
   for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
     Block<Dim>& b = scene.blocks[ib];
     const Grid& g = b.grid;
-    parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
+    parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
       for (int s = begin; s < end; ++s) {
         for (int q = 0; q < g.rows_per_slab(); ++q) {
           const auto [j, k] = g.in_slab(s, q);
-          rates(b, j, k);
+          rates(b, j, k, b.awake.cells(g.cell_row(j, k)));
         }
       }
     });
     for (auto& f : b.strain_rate) {
-      exchange_cells(g, f);
+      exchange_cells(g, f, &b.awake);
     }
     std::vector<DtLimit> found(static_cast<std::size_t>(g.slabs()));
-    parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
-      std::vector<double> dt(static_cast<std::size_t>(g.cells[0]));
+    parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
       for (int s = begin; s < end; ++s) {
         for (int q = 0; q < g.rows_per_slab(); ++q) {
           const auto [j, k] = g.in_slab(s, q);
-          const int r = g.cell_row(j, k);
-          std::fill(dt.begin(), dt.end(), std::numeric_limits<double>::infinity());
-          for (std::size_t d = 0; d < Dim; ++d) {
-            const RowField& e = b.strain_rate[d];
-            const int stride = g.cell_row_stride(static_cast<int>(d)), step = d == 0 ? 1 : 0;
-            viscosity_row(g.cells[0], c, e.row(r - stride) - step, e.row(r), e.row(r + stride) + step,
-                          b.length[d].row(r), b.density.row(r), b.wave_speed.row(r), b.modulus.row(r),
-                          b.viscosity[d].row(r), dt.data());
-          }
-          if (b.any_sliding()) {
-            spare_shear(b, j, k);
-          }
-          const auto low = std::min_element(dt.begin(), dt.end());
-          DtLimit& limit = found[static_cast<std::size_t>(s)];
-          const int i = static_cast<int>(low - dt.begin());
-          if (n.cfl * *low < limit.dt) {
-            bool viscous = false;
-            for (const RowField& q_axis : b.viscosity) {
-              viscous = viscous || q_axis.row(r)[i] > 0;
-            }
-            limit = {n.cfl * *low, static_cast<int>(ib), {i, j, k}, b.owner_row(r)[i],
-                     viscous ? DtCause::viscosity : DtCause::sound};
-          }
-          double fastest = 0;
-          for (std::size_t d = 0; d < Dim; ++d) {
-            const double* e = b.strain_rate[d].row(r);
-#pragma omp simd reduction(max : fastest)
-            for (int cell = 0; cell < g.cells[0]; ++cell) {
-              fastest = std::max(fastest, std::abs(e[cell]));
-            }
-          }
-          if (n.max_volume_change < limit.dt * fastest) {
-            limit = fastest_cell(b, j, k, n.max_volume_change / fastest, fastest);
-            limit.block = static_cast<int>(ib);
-          }
+          limit_row(b, n, j, k, found[static_cast<std::size_t>(s)]);
+          found[static_cast<std::size_t>(s)].block = static_cast<int>(ib);
         }
       }
     });

@@ -97,6 +97,8 @@ template <int Dim> double spread_void(const Block<Dim>& b, const std::array<int,
   return sum;
 }
 
+} // namespace
+
 /// A void that has no right to be: the cell's materials are compressed enough to fill it (a remap brings a
 /// void in beside them each step; kept, the cell would push back with the void's pressure however far it is
 /// squeezed), or it is a residue that reconstruction left inside a body, which would cut the body's tension for
@@ -135,6 +137,8 @@ template <int Dim> bool to_be_closed(const Block<Dim>& b, int i, int j, int k, b
   return whole <= largest_residue && (expansion - whole) / compliance > weakest;
 }
 
+namespace {
+
 /// The materials take the void's room, the soft ones most of it (as the closure shares a volume change).
 template <int Dim> void close_void(Block<Dim>& b, int r, int i) {
   double compliance = 0;
@@ -160,11 +164,12 @@ template <int Dim, class Wanted, class Change>
 long change_cells(Block<Dim>& b, ThreadPool& pool, Wanted&& wanted, Change&& change) {
   const Grid& g = b.grid;
   std::vector<std::vector<int>> found(static_cast<std::size_t>(g.slabs() * g.rows_per_slab()));
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+  parallel_awake(pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
-        for (int i = 0; i < g.cells[0]; ++i) {
+        const Span cells = b.awake.cells(g.cell_row(j, k));
+        for (int i = cells.begin; i < cells.end; ++i) {
           if (wanted(i, j, k)) {
             found[static_cast<std::size_t>(s * g.rows_per_slab() + q)].push_back(i);
           }
@@ -229,6 +234,8 @@ template <int Dim> long open_voids(Block<Dim>& b, ThreadPool& pool) {
       });
 }
 
+template bool to_be_closed<2>(const Block<2>&, int, int, int, bool);
+template bool to_be_closed<3>(const Block<3>&, int, int, int, bool);
 template long close_voids<2>(Block<2>&, ThreadPool&, bool);
 template long close_voids<3>(Block<3>&, ThreadPool&, bool);
 template long open_voids<2>(Block<2>&, ThreadPool&);

@@ -12,6 +12,11 @@
 
 namespace ballast {
 
+double conduction_wall(const MaterialSlot& slot) {
+  const double cold = slot.material.specific_heat * slot.material.reference_temperature, start = slot.reference.e;
+  return std::abs(start - cold) < 0.05 * cold ? start : cold;
+}
+
 namespace {
 
 /// Scratch rows of the work pass.
@@ -113,9 +118,7 @@ template <int Dim> void conduct(Block<Dim>& b, const MixedCell& cell, int r, int
     if (!(slot.material.conductivity > 0 && mass > 0 && mass < bath && f > 0)) {
       continue;
     }
-    // A gas that starts within 5 % of the ambient temperature is taken to start at it: what is at rest stays so to the bit.
-    const double cold = slot.material.specific_heat * slot.material.reference_temperature, start = slot.reference.e;
-    const double wall = std::abs(start - cold) < 0.05 * cold ? start : cold;
+    const double wall = conduction_wall(slot);
     const double rate = slot.material.conductivity * dt / (mass / b.next_volume.row(r)[i] * slot.material.specific_heat * f * width * width);
     double& e = slot.store.row(field::energy, r)[i];
     const double gain = (wall - e) * (rate / (1 + rate));
@@ -164,11 +167,17 @@ double advance_mixed(Block<Dim>& b,
   }
   double taken = 0, sum = 0;
   int largest = 0;
+  bool rests = next_volume == volume; // then the fractions stay as they are, to the bit
+  for (int k = 0; k < cell.count; ++k) {
+    rests = rests && cell.part[k].volume_change == 0;
+  }
   for (int k = 0; k < cell.count; ++k) {
     MixedCell::Part& p = cell.part[k];
     MaterialSlot& slot = b.materials[static_cast<std::size_t>(p.material)];
     const double part_volume = p.volume + p.volume_change;
-    slot.store.row(field::fraction, r)[i] = std::max(0.0, part_volume / next_volume);
+    if (!rests) {
+      slot.store.row(field::fraction, r)[i] = std::max(0.0, part_volume / next_volume);
+    }
     sum += slot.store.row(field::fraction, r)[i];
     largest =
         part_volume > cell.part[largest].volume + cell.part[largest].volume_change ? k : largest;
@@ -182,7 +191,7 @@ double advance_mixed(Block<Dim>& b,
   }
   double& most = b.materials[static_cast<std::size_t>(cell.part[largest].material)].store.row(
       field::fraction, r)[i];
-  most += 1 - sum;
+  most += rests ? 0.0 : 1 - sum;
   conduct(b, cell, r, i, dt);
   strain_parts<Dim>(b, cell, r, i, dt, own, failed);
   return taken - (w.work[i] - b.reference_pressure * motion.swept_volume);
@@ -218,19 +227,23 @@ void advance_row(Scene<Dim>& scene,
                  StepSums<Dim>& sums) {
   const Grid& g = b.grid;
   const int r = g.cell_row(j, k);
+  const Span cells = b.awake.cells(r);
+  if (cells.empty()) {
+    return;
+  }
   const double* next[Dim][ForceRows<Dim>::lines];
   for (std::size_t d = 0; d < Dim; ++d) {
     for (int l = 0; l < ForceRows<Dim>::lines; ++l) {
-      next[d][l] = b.next_velocity[d].row(g.node_row(j + (l & 1), k + (l >> 1)));
+      next[d][l] = b.next_velocity[d].row(g.node_row(j + (l & 1), k + (l >> 1))) + cells.begin;
     }
   }
   corner_work<Dim>(b,
-                   ForceRows<Dim>(b, j, k),
+                   ForceRows<Dim>(b, j, k).from(cells.begin),
                    next,
                    force_coefficients(scene.numerics, dt),
-                   g.cells[0],
-                   buffer.rows);
-  buffer.runs.scan(b.owner_row(r), g.cells[0]);
+                   cells.count(),
+                   buffer.rows.from(cells.begin));
+  buffer.runs.scan(b.owner_row(r), cells);
   for (const RowRuns::Run& run : buffer.runs.pure) {
     if (b.materials[static_cast<std::size_t>(run.material)].is_void) {
       for (int i = run.begin; i < run.end; ++i) {
@@ -242,7 +255,8 @@ void advance_row(Scene<Dim>& scene,
     sums.failed_cell =
         sums.failed > before ? std::array<int, 3>{run.begin, j, k} : sums.failed_cell;
   }
-  std::size_t q = 0;
+  const std::int8_t* owner = b.owner_row(r);
+  auto q = static_cast<std::size_t>(std::count(owner, owner + cells.begin, mixed_cell)); // of the row's normals
   for (const int i : buffer.runs.mixed) {
     const int before = sums.failed;
     const Eigen::Vector3d n =
@@ -252,7 +266,7 @@ void advance_row(Scene<Dim>& scene,
     sums.void_work += advance_mixed(b, r, i, n, dt, buffer.rows, sums.failed);
     sums.failed_cell = sums.failed > before ? std::array<int, 3>{i, j, k} : sums.failed_cell;
   }
-  sums.swept_volume += lane_sum(buffer.rows.swept_volume, g.cells[0]);
+  sums.swept_volume += lane_sum(buffer.rows.swept_volume + cells.begin, cells.count());
 }
 
 } // namespace
@@ -260,7 +274,7 @@ void advance_row(Scene<Dim>& scene,
 template <int Dim> StepSums<Dim> work_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
   const Grid& g = b.grid;
   std::vector<StepSums<Dim>> sums(static_cast<std::size_t>(g.slabs()));
-  parallel_ranges(*scene.pool, g.slabs(), [&](int begin, int end, int) {
+  parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
     WorkBuffer<Dim> buffer(g.cells[0], b.any_strength());
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {

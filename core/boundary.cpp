@@ -2,8 +2,11 @@
 
 namespace ballast {
 
-void exchange_cells(const Grid& g, RowField& f) {
-  mirror_cells(g, {1, 1, 1}, [&](int j, int k) { return f.row(g.cell_row(j, k)); });
+void exchange_cells(const Grid& g, RowField& f, const Awake* awake) {
+  mirror_cells(g, {1, 1, 1}, [&](int j, int k) -> double* {
+    const int r = g.cell_row(j, k);
+    return awake != nullptr && awake->cells(r).empty() ? nullptr : f.row(r);
+  });
 }
 
 namespace {
@@ -26,10 +29,14 @@ NodeGhost ghost_rule(const BoundarySet& b, int axis, int side, int component) {
 
 } // namespace
 
-void exchange_nodes(const Grid& g, const BoundarySet& boundary, int component, RowField& f) {
+void exchange_nodes(const Grid& g, const BoundarySet& boundary, int component, RowField& f, const Awake* awake) {
+  const auto asleep = [&](int r) { return awake != nullptr && awake->nodes(r).empty(); };
   const int top = g.dim == 3 ? g.cells[2] : 0;
   for (int k = 0; k <= top; ++k) {
     for (int j = 0; j <= g.cells[1]; ++j) {
+      if (asleep(g.node_row(j, k))) {
+        continue;
+      }
       double* a = f.row(g.node_row(j, k));
       for (int side = 0; side < 2; ++side) {
         const NodeGhost rule = ghost_rule(boundary, 0, side, component);
@@ -41,6 +48,9 @@ void exchange_nodes(const Grid& g, const BoundarySet& boundary, int component, R
     }
   }
   const auto copy = [&](int j, int k, int js, int ks, double sign, double shift) {
+    if (asleep(g.node_row(j, k))) {
+      return;
+    }
     double* to = f.row(g.node_row(j, k));
     const double* from = f.row(g.node_row(js, ks));
     for (int i = -g.ghost[0]; i <= g.cells[0] + g.ghost[0]; ++i) {

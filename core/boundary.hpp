@@ -1,6 +1,7 @@
 // Boundaries of a block, one kind an axis and side, and the exchange that fills ghosts.
 #pragma once
 
+#include "core/awake.hpp"
 #include "core/grid.hpp"
 
 #include <array>
@@ -116,10 +117,10 @@ template <class Row> void mirror_cells(const Grid& g, const std::array<double, 3
 }
 
 /// Fills the ghosts of a node field; sign as in mirror_cells for sides that fix the normal velocity,
-/// the prescribed velocity beyond an inflow, zero gradient on the others.
-void exchange_nodes(const Grid& g, const BoundarySet& boundary, int component, RowField& f);
+/// the prescribed velocity beyond an inflow, zero gradient on the others. `awake`: only of rows awake.
+void exchange_nodes(const Grid& g, const BoundarySet& boundary, int component, RowField& f, const Awake* awake = nullptr);
 
-/// Fills the ghosts of a cell field that a mirror leaves unchanged.
-void exchange_cells(const Grid& g, RowField& f);
+/// Fills the ghosts of a cell field that a mirror leaves unchanged. `awake`: only of rows awake.
+void exchange_cells(const Grid& g, RowField& f, const Awake* awake = nullptr);
 
 } // namespace ballast

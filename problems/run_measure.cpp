@@ -88,14 +88,27 @@ double reach(const Block<Dim>& b,
   return end;
 }
 
+/// Calls body(i, j, k) for the cells of each row r that span(r) names, in order.
+template <int Dim, class Choice, class Body> void for_cells(const Block<Dim>& b, Choice&& span, Body&& body) {
+  const Grid& g = b.grid;
+  for (int k = 0; k < g.cells[2]; ++k) {
+    for (int j = 0; j < g.cells[1]; ++j) {
+      const Span cells = span(g.cell_row(j, k));
+      for (int i = cells.begin; i < cells.end; ++i) {
+        body(i, j, k);
+      }
+    }
+  }
+}
+
 } // namespace
 
 template <int Dim> double kinetic_energy(const Block<Dim>& b, int slot) {
   const MaterialSlot& material = b.materials[static_cast<std::size_t>(slot)];
   double sum = 0;
-  for_each_cell(b, [&](int i, int j, int k) {
-    const int r = b.grid.cell_row(j, k);
-    const double mass = material.store.has_row(r) ? material.store.row(field::mass, r)[i] : 0.0;
+  const auto awake = [&](int r) { return material.store.has_row(r) ? b.awake.cells(r) : Span{}; }; // the others rest
+  for_cells(b, awake, [&](int i, int j, int k) {
+    const double mass = material.store.row(field::mass, b.grid.cell_row(j, k))[i];
     for (int corner = 0; mass > 0 && corner < (1 << Dim); ++corner) {
       const int node = b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1));
       double square = 0;
@@ -114,7 +127,11 @@ BodyMeasure
 measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, double direction) {
   BodyMeasure m;
   double low = std::numeric_limits<double>::infinity(), high = -low, momentum = 0;
-  for_each_cell(b, [&](int i, int j, int k) {
+  const auto held = [&](int r) {
+    const bool any = std::any_of(slots.begin(), slots.end(), [&](int s) { return b.materials[static_cast<std::size_t>(s)].store.has_row(r); });
+    return any ? Span{0, b.grid.cells[0]} : Span{};
+  };
+  for_cells(b, held, [&](int i, int j, int k) {
     const int r = b.grid.cell_row(j, k);
     double mass = 0, sliding = 0;
     for (const int s : slots) {

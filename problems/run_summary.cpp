@@ -35,6 +35,7 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
   j["steps"] = clock_.step;
   j["wall_seconds"] = memory_.wall_before + wall;
   j["cell_steps_per_second"] = static_cast<double>(b.grid.cell_count()) * static_cast<double>(clock_.step - start_step_) / std::max(wall, 1e-9);
+  j["awake_share"] = b.awake_steps / std::max(1.0, static_cast<double>(clock_.step - start_step_)); // of the cells, mean over the steps
   j["threads"] = scene_.pool->size();
   j["peak_memory_bytes"] = static_cast<double>(usage.ru_maxrss) * 1024;
   j["dt_first_s"] = dt_first_;

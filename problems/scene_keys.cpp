@@ -140,6 +140,11 @@ const SectionSpec& numerics() {
        {.name = "spall",
         .kind = flag,
         .doc = "void opens below a material's spall pressure",
+        .fallback = "true"},
+       {.name = "sleeping",
+        .kind = flag,
+        .doc = "cells at rest are passed over, which changes no bit of the results; off only to measure what that saves. Meshes that "
+               "follow something and scenes with inflow never sleep",
         .fallback = "true"}}};
   return spec;
 }

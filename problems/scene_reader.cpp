@@ -221,6 +221,7 @@ void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
   n.dt_growth = in.number("dt_growth", n.dt_growth);
   n.dt_max = in.number("dt_max", n.dt_max);
   n.spall = in.flag("spall");
+  n.sleeping = in.flag("sleeping");
 }
 
 /// Checks the length and that the point lies in the mesh.

@@ -19,12 +19,22 @@ public:
     }
     data_.assign(static_cast<std::size_t>(fields * faces), 0.0);
     present_.assign(m.materials.size(), false);
+    crossed_.assign(m.materials.size(), Span{});
   }
   double* flux(int material, int field) {
     return data_.data() + (first_[static_cast<std::size_t>(material)] + field) * faces_;
   }
   bool present(int material) const { return present_[static_cast<std::size_t>(material)]; }
-  void set_present(int material, bool p) { present_[static_cast<std::size_t>(material)] = p; }
+  void set_present(int material, bool p) {
+    present_[static_cast<std::size_t>(material)] = p;
+    crossed_[static_cast<std::size_t>(material)] = {};
+  }
+  /// The faces that some of the material crosses lie in this run.
+  const Span& crossed(int material) const { return crossed_[static_cast<std::size_t>(material)]; }
+  void cross(int material, const Span& faces) {
+    Span& s = crossed_[static_cast<std::size_t>(material)];
+    s = hull(s, faces);
+  }
   int faces() const { return faces_; }
   /// The only material of the cells on both sides of all faces, or -1.
   int sole = -1;
@@ -33,6 +43,7 @@ private:
   int faces_;
   std::vector<int> first_;
   std::vector<char> present_;
+  std::vector<Span> crossed_;
   std::vector<double> data_;
 };
 

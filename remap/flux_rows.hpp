@@ -3,6 +3,7 @@
 // A face carries t along +axis, out of the cell below it for t > 0, above for t < 0.
 #pragma once
 
+#include "core/awake.hpp"
 #include "core/grid.hpp"
 #include "core/tile_store.hpp"
 #include "remap/limiter.hpp"
@@ -55,13 +56,13 @@ struct Three {
 }
 
 /// Masses (kg) from volumes (m3) through a row of faces, by the limited density; factors for what they carry.
-inline void mass_fluxes(const TileStore& store, const RowField& volumes, const Line& l, double unlimited, int faces, const double* volume_flux, double* mass_flux, FaceFactors& factors) {
+inline void mass_fluxes(const TileStore& store, const RowField& volumes, const Line& l, double unlimited, Span faces, const double* volume_flux, double* mass_flux, FaceFactors& factors) {
   const Four f = four(store, 0, l), m = four(store, 1, l);
   const Four v{{volumes.row(l.row[0]) + l.shift[0], volumes.row(l.row[1]) + l.shift[1],
                 volumes.row(l.row[2]) + l.shift[2], volumes.row(l.row[3]) + l.shift[3]}};
   double *central = factors.central.data(), *edge = factors.edge.data();
 #pragma omp simd
-  for (int i = 0; i < faces; ++i) {
+  for (int i = faces.begin; i < faces.end; ++i) {
     const double t = volume_flux[i];
     const std::uint64_t positive = where_positive(t);
     const Three vf = pick(f, i, positive), vm = pick(m, i, positive), vv = pick(v, i, positive);
@@ -85,11 +86,11 @@ inline void mass_fluxes(const TileStore& store, const RowField& volumes, const L
 }
 
 /// An intensive quantity carried with the mass.
-inline void intensive_fluxes(const TileStore& store, int field, const Line& l, double unlimited, int faces, const double* mass_flux, const FaceFactors& factors, double* out) {
+inline void intensive_fluxes(const TileStore& store, int field, const Line& l, double unlimited, Span faces, const double* mass_flux, const FaceFactors& factors, double* out) {
   const Four q = four(store, field, l);
   const double *central = factors.central.data(), *edge = factors.edge.data();
 #pragma omp simd
-  for (int i = 0; i < faces; ++i) {
+  for (int i = faces.begin; i < faces.end; ++i) {
     const double t = mass_flux[i];
     const Three vq = pick(q, i, where_positive(t));
     out[i] = t * (vq.mid + limited_rise(vq.behind, vq.mid, vq.ahead, central[i], edge[i], unlimited));

@@ -79,13 +79,17 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
   const RowField &loss = m.scratch->node_loss, &node_mass = m.node_mass;
   std::vector<std::vector<Shortage>> shortages(static_cast<std::size_t>(g.slabs()));
   std::vector<ReturnSums> sums(static_cast<std::size_t>(g.slabs()));
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+  parallel_awake(pool, m.awake, g.slabs(), [&](int begin, int end, int) {
     std::vector<double> per_mass(static_cast<std::size_t>(g.cells[0])), returned(per_mass.size());
     double* gains = per_mass.data();
     for (int s = begin; s < end; ++s) {
       ReturnSums& slab = sums[static_cast<std::size_t>(s)];
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
+        const Span cells = m.cells(g.cell_row(j, k));
+        if (cells.empty()) {
+          continue;
+        }
         std::fill(per_mass.begin(), per_mass.end(), 0.0);
         for (int corner = 0; corner < (1 << Dim); ++corner) {
           const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2 & 1;
@@ -98,7 +102,7 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
           }
           const double* low0 = m.low_share[0].data() + g.ghost[0];
 #pragma omp simd
-          for (int i = 0; i < g.cells[0]; ++i) {
+          for (int i = cells.begin; i < cells.end; ++i) {
             const double w = share * (di ? 1 - low0[i] : low0[i]);
             const bool some = mass[i] > 0;
             const double gain = w * l[i] / (some ? mass[i] : 1.0);
@@ -106,7 +110,7 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
           }
         }
         const int r = g.cell_row(j, k);
-        std::copy(gains, gains + g.cells[0], m.scratch->cell_mass.row(r)); // the sweeps are done with it
+        std::copy(gains + cells.begin, gains + cells.end, m.scratch->cell_mass.row(r) + cells.begin); // the sweeps are done with it
         for (int mat = 0; mat < m.material_count(); ++mat) {
           TileStore& store = *m.materials[static_cast<std::size_t>(mat)];
           if (m.is_void(mat) || !store.has_row(r)) {
@@ -117,24 +121,24 @@ void return_kinetic(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
           const double lowest = m.least_energy_of(mat);
           int cut = 0;
 #pragma omp simd reduction(+ : cut)
-          for (int i = 0; i < g.cells[0]; ++i) {
+          for (int i = cells.begin; i < cells.end; ++i) {
             cut += (mass[i] > 0) & (gains[i] < 0) & (gains[i] < -largest_fall * (e[i] - lowest)) ? 1 : 0;
           }
-          for (int i = 0; i < g.cells[0] && cut > 0; ++i) {
+          for (int i = cells.begin; i < cells.end && cut > 0; ++i) {
             if (mass[i] > 0 && gains[i] < 0 && gains[i] < -largest_fall * (e[i] - lowest)) {
               const double most = std::min(0.0, -largest_fall * (e[i] - lowest));
               shortages[static_cast<std::size_t>(s)].push_back({mat, i, j, k, mass[i] * (most - gains[i])});
             }
           }
 #pragma omp simd
-          for (int i = 0; i < g.cells[0]; ++i) {
+          for (int i = cells.begin; i < cells.end; ++i) {
             const double wanted = gains[i], least = -largest_fall * (e[i] - lowest), floor = least < 0 ? least : 0.0;
             const bool some = mass[i] > 0, falls = (wanted < 0) & (wanted < least);
             const double limited = falls ? floor : wanted, gain = some ? limited : 0.0;
             e[i] += gain;
             given[i] = mass[i] * gain;
           }
-          slab.returned += lane_sum(given, g.cells[0]);
+          slab.returned += lane_sum(given + cells.begin, cells.count());
         }
       }
     }

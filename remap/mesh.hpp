@@ -5,6 +5,7 @@
 // are intensive (per mass): specific energy first, then history. A void store has field 0 only.
 #pragma once
 
+#include "core/awake.hpp"
 #include "core/grid.hpp"
 #include "core/threads.hpp"
 #include "core/tile_store.hpp"
@@ -81,7 +82,20 @@ template <int Dim> struct Mesh {
   std::vector<std::int8_t>& owner;                       ///< the only material of a cell, or -1
   Sliding<Dim>* sliding = nullptr; ///< optional
   Scratch* scratch = nullptr; ///< optional: without it every sweep allocates its own
+  const Awake* awake = nullptr; ///< optional: what else there is stays as it is, so nothing looks at it
   std::function<void(RowField&, int)> exchange_velocity; ///< fills ghosts of a component
+
+  /// Cells, nodes and faces of a row that are awake, by the number of the cell or node row.
+  Span cells(int row) const { return awake != nullptr ? awake->cells(row) : Span{0, grid.cells[0]}; }
+  Span nodes(int row) const { return awake != nullptr ? awake->nodes(row) : Span{0, grid.cells[0] + 1}; }
+  /// The faces below the row's cells along `axis`, and along axis 0 the last one.
+  Span faces(int axis, int row) const {
+    const Span here = cells(row);
+    if (axis == 0) {
+      return here.empty() ? here : Span{here.begin, here.end + 1};
+    }
+    return hull(here, cells(row - grid.cell_row_stride(axis)));
+  }
 
   std::int8_t* owner_row(int r) {
     return owner.data() + static_cast<std::ptrdiff_t>(r) * grid.cell_pitch() + grid.ghost[0];

@@ -24,6 +24,7 @@ template <int Dim> void strain_of_row(const Mesh<Dim>& m, int r, long order, std
   const double* v = m.volume.row(r);
   double* vs = between.data(); // Dim rows: volume after each sweep
   const int n = g.cells[0];
+  const Span cells = m.cells(r);
   double share = worst.share, ratio = worst.ratio;
   for (int q = 0; q < Dim; ++q) {
     const int axis = sweep_axis(Dim, q, order);
@@ -32,7 +33,7 @@ template <int Dim> void strain_of_row(const Mesh<Dim>& m, int r, long order, std
     const double* before = q == 0 ? v : vs + (q - 1) * n;
     double* after = vs + q * n;
 #pragma omp simd reduction(max : share)
-    for (int i = 0; i < n; ++i) {
+    for (int i = cells.begin; i < cells.end; ++i) {
       share = std::max(share, std::max(low[i], -high[i]) / v[i]);
       after[i] = before[i] + high[i] - low[i];
     }
@@ -41,7 +42,7 @@ template <int Dim> void strain_of_row(const Mesh<Dim>& m, int r, long order, std
   for (int q = 0; q + 1 < Dim; ++q) {
     const double* v_star = vs + q * n;
 #pragma omp simd reduction(max : ratio)
-    for (int i = 0; i < n; ++i) {
+    for (int i = cells.begin; i < cells.end; ++i) {
       const double least = std::min(v[i], v_new[i]);
       const double here = std::max(v_star[i] / least, least / std::max(v_star[i], 1e-9 * least));
       ratio = std::max(ratio, least > 0 ? here : std::numeric_limits<double>::infinity());
@@ -53,7 +54,7 @@ template <int Dim> void strain_of_row(const Mesh<Dim>& m, int r, long order, std
 template <int Dim> Strain strain_of(const Mesh<Dim>& m, ThreadPool& pool, long order) {
   const Grid& g = m.grid;
   std::vector<Strain> worst(static_cast<std::size_t>(g.slabs()));
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+  parallel_awake(pool, m.awake, g.slabs(), [&](int begin, int end, int) {
     std::vector<double> between(static_cast<std::size_t>(Dim * g.cells[0]));
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
@@ -82,6 +83,9 @@ template <int Dim> std::array<int, 3> worst_cell(const Mesh<Dim>& m, long order)
       Strain ignored;
       strain_of_row(m, g.cell_row(j, k), order, between, ignored);
       for (std::size_t c = 0; c < between.size(); ++c) {
+        if (!m.cells(g.cell_row(j, k)).holds({static_cast<int>(c % n), static_cast<int>(c % n) + 1})) {
+          continue;
+        }
         const double share = between[c] / m.volume.row(g.cell_row(j, k))[c % n];
         if (!(share >= least)) {
           least = share;
@@ -150,7 +154,7 @@ template <int Dim> void fill_outside(Mesh<Dim>& m, int axis, int side) {
       }
       const bool ghosts = axis == 0 || (side == 0 ? index[axis] < 0 : index[axis] >= g.cells[a]);
       const bool edge = axis > 0 && index[axis] == (side == 0 ? 0 : g.cells[a] - 1);
-      if (!ghosts && !edge) {
+      if ((!ghosts && !edge) || m.cells(r).empty()) {
         continue;
       }
       const double* volume = m.volume.row(r);
@@ -194,14 +198,19 @@ template <int Dim> void exchange_owner(Mesh<Dim>& m, ThreadPool& pool) {
   }
   parallel_ranges(pool, g.cell_rows(), [&](int begin, int end, int) {
     for (int r = begin; r < end; ++r) {
+      const Span cells = m.cells(r);
+      if (cells.empty()) {
+        continue;
+      }
       std::int8_t* owner = m.owner_row(r);
-      std::fill(owner - g.ghost[0], owner + g.cells[0] + g.ghost[0], static_cast<std::int8_t>(-1));
+      const int first = cells.begin == 0 ? -g.ghost[0] : cells.begin, last = cells.end == g.cells[0] ? cells.end + g.ghost[0] : cells.end;
+      std::fill(owner + first, owner + last, static_cast<std::int8_t>(-1));
       for (int q = 0; q < m.material_count(); ++q) {
         const TileStore& store = *m.materials[static_cast<std::size_t>(q)];
         if (!store.has_row(r)) {
           continue;
         }
-        mark_owner(store.row(0, r), q, -g.ghost[0], g.cells[0] + g.ghost[0], owner);
+        mark_owner(store.row(0, r), q, first, last, owner);
       }
     }
   });
@@ -218,7 +227,7 @@ template <int Dim> void exchange_for_sweep(Mesh<Dim>& m, int axis) {
       // the even mirror gives a zero slope: first order there, by choice.
       const auto row = [&](int j, int k) -> double* {
         const int r = g.cell_row(j, k);
-        return store->has_row(r) ? store->row(field, r) : nullptr;
+        return !m.cells(r).empty() && store->has_row(r) ? store->row(field, r) : nullptr;
       };
       if (field == 0) { // interfaces look to all sides, slopes along the sweep only
         mirror_cells(g, {1, 1, 1}, row);
@@ -227,7 +236,7 @@ template <int Dim> void exchange_for_sweep(Mesh<Dim>& m, int axis) {
       }
     }
   }
-  mirror_cells(g, {1, 1, 1}, [&](int j, int k) { return m.volume.row(g.cell_row(j, k)); });
+  exchange_cells(g, m.volume, m.awake);
 }
 
 template <int Dim>
@@ -281,6 +290,17 @@ std::array<RowField, Dim> on_the_way(const std::array<RowField, Dim>& start, con
   return to;
 }
 
+template <int Dim> void reach_target(Mesh<Dim>& m) {
+  const Grid& g = m.grid;
+  for (int r = 0; r < g.node_rows(); ++r) {
+    const Span nodes = m.nodes(r);
+    for (std::size_t d = 0; d < Dim && !nodes.empty(); ++d) { // ghosts as well
+      const double* to = m.target[d].row(r);
+      std::copy(to - g.ghost[0], to + g.cells[0] + 1 + g.ghost[0], m.position[d].row(r) - g.ghost[0]);
+    }
+  }
+}
+
 template <int Dim> Report remap(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long order) {
   constexpr double smallest_part = 1.0 / 512;
   Report report;
@@ -290,7 +310,7 @@ template <int Dim> Report remap(Mesh<Dim>& m, const Settings& settings, ThreadPo
   const Strain whole = strain_of(m, pool, order);
   if (fits(whole)) {
     sweep_all(m, settings, pool, order, report);
-    m.position = m.target;
+    reach_target(m);
     return report;
   }
   // Larger motions go in parts: every swept volume then fits its donor and no cell is squeezed between

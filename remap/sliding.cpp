@@ -101,7 +101,8 @@ public:
   double row(int j, int k) {
     const int r = m_.grid.node_row(j, k);
     double lost = 0;
-    for (int i = 0; i <= m_.grid.cells[0]; ++i) {
+    const Span nodes = m_.nodes(r);
+    for (int i = nodes.begin; i < nodes.end; ++i) {
       const double rest = std::max(m_.node_mass.row(r)[i], 0.0), sliding = std::max(s_.node_mass.row(r)[i], 0.0);
       m_.node_mass.row(r)[i] = rest + sliding;
       for (std::size_t d = 0; d < Dim; ++d) {
@@ -181,6 +182,7 @@ private:
   bool gains(int j, int k, std::vector<double>& gain) const {
     const Grid& g = m_.grid;
     const Sliding<Dim>& s = *m_.sliding;
+    const Span cells = m_.cells(g.cell_row(j, k));
     std::fill(gain.begin(), gain.end(), 0.0);
     bool any = false;
     for (int corner = 0; corner < (1 << Dim); ++corner) {
@@ -191,7 +193,7 @@ private:
       }
       const int r = g.node_row(j + up[1], k + up[2]);
       const double *loss = s.loss.row(r) + up[0], *mass = s.node_mass.row(r) + up[0];
-      for (int i = 0; i < g.cells[0]; ++i) {
+      for (int i = cells.begin; i < cells.end; ++i) {
         if (loss[i] != 0 && mass[i] > 0) {
           gain[static_cast<std::size_t>(i)] += row_share * share(0, i, up[0]) * loss[i] / mass[i];
           any = true;
@@ -217,7 +219,8 @@ private:
       const double *mass = std::as_const(store).row(1, r), *volume = m_.volume.row(r);
       const double least = m_.least_energy_of(q), sliver = sliver_share * m_.reference_density_of(q);
       double* e = store.row(2, r);
-      for (int i = 0; i < m_.grid.cells[0]; ++i) {
+      const Span cells = m_.cells(r);
+      for (int i = cells.begin; i < cells.end; ++i) {
         if (mass[i] > sliver * volume[i] && gain[static_cast<std::size_t>(i)] != 0) {
           const double most_fall = std::min(0.0, -largest_fall * (e[i] - least));
           const double rise = std::max(gain[static_cast<std::size_t>(i)], most_fall);
@@ -233,9 +236,9 @@ private:
 };
 
 /// Sum of f(index) over slabs or planes, in the same order for any threads.
-template <class Function> double sum_in_order(int count, ThreadPool& pool, Function&& f) {
+template <class Function> double sum_in_order(int count, ThreadPool& pool, const Awake* awake, Function&& f) {
   std::vector<double> sums(static_cast<std::size_t>(count), 0.0);
-  parallel_ranges(pool, count, [&](int begin, int end, int) {
+  parallel_awake(pool, awake, count, [&](int begin, int end, int) {
     for (int q = begin; q < end; ++q) {
       sums[static_cast<std::size_t>(q)] = f(q);
     }
@@ -248,8 +251,8 @@ template <class Function> double sum_in_order(int count, ThreadPool& pool, Funct
 }
 
 /// Sum of row(j, k) over all rows of nodes.
-template <int Dim, class Row> double sum_node_rows(const Grid& g, ThreadPool& pool, Row&& row) {
-  return sum_in_order(g.slabs() + 1, pool, [&](int plane) {
+template <int Dim, class Row> double sum_node_rows(const Grid& g, ThreadPool& pool, const Awake* awake, Row&& row) {
+  return sum_in_order(g.slabs() + 1, pool, awake, [&](int plane) {
     double sum = 0;
     for (int q = 0; q < (Dim == 3 ? g.cells[1] + 1 : 1); ++q) {
       sum += row(Dim == 3 ? q : plane, Dim == 3 ? plane : 0);
@@ -263,23 +266,24 @@ template <int Dim, class Row> double sum_node_rows(const Grid& g, ThreadPool& po
 template <int Dim> void part_sliding(Mesh<Dim>& m, ThreadPool& pool) {
   Sliding<Dim>& s = *m.sliding;
   constexpr double round_off = 1e-13;
-  const int count = m.grid.cells[0] + 1, rows = Dim == 3 ? m.grid.cells[1] + 1 : 1;
-  parallel_ranges(pool, m.grid.slabs() + 1, [&](int begin, int end, int) {
+  const int rows = Dim == 3 ? m.grid.cells[1] + 1 : 1;
+  parallel_awake(pool, m.awake, m.grid.slabs() + 1, [&](int begin, int end, int) {
     for (int q = begin * rows; q < end * rows; ++q) {
       const int r = Dim == 3 ? m.grid.node_row(q % rows, q / rows) : m.grid.node_row(q, 0);
+      const Span nodes = m.nodes(r);
       double *mass = m.node_mass.row(r), *loss = s.loss.row(r), *by_sweeps = m.scratch->node_loss.row(r);
       const double* sliding = s.node_mass.row(r);
       for (std::size_t d = 0; d < Dim; ++d) {
         const double* jump = s.jump[d].row(r);
         double *v = m.velocity[d].row(r), *u = s.velocity[d].row(r);
 #pragma omp simd
-        for (int i = 0; i < count; ++i) {
+        for (int i = nodes.begin; i < nodes.end; ++i) {
           const double follows = node_follows(sliding[i], mass[i]);
           u[i] = v[i] + (1 - follows) * jump[i];
           v[i] -= follows * jump[i];
         }
       }
-      for (int i = 0; i < count; ++i) {
+      for (int i = nodes.begin; i < nodes.end; ++i) {
         const double rest = mass[i] - sliding[i];
         mass[i] = rest > round_off * mass[i] ? rest : 0.0;
         loss[i] = by_sweeps[i] = 0;
@@ -290,11 +294,11 @@ template <int Dim> void part_sliding(Mesh<Dim>& m, ThreadPool& pool) {
 
 template <int Dim> void join_sliding(Mesh<Dim>& m, ThreadPool& pool, Report& report) {
   Join<Dim> join(m);
-  const double lost = sum_node_rows<Dim>(m.grid, pool, [&](int j, int k) { return join.row(j, k); });
+  const double lost = sum_node_rows<Dim>(m.grid, pool, m.awake, [&](int j, int k) { return join.row(j, k); });
   report.kinetic_loss += lost;
   report.impact_loss += lost;
   Return<Dim> back(m);
-  report.kinetic_returned += sum_in_order(m.grid.slabs(), pool, [&](int slab) { return back.slab(slab); });
+  report.kinetic_returned += sum_in_order(m.grid.slabs(), pool, m.awake, [&](int slab) { return back.slab(slab); });
 }
 
 template void part_sliding<2>(Mesh<2>&, ThreadPool&);

@@ -40,6 +40,7 @@ public:
   void fluxes(int j, int k, bool own, FaceRow& out) {
     const int r = m_.grid.cell_row(j, k);
     const Line line = line_of(m_.grid, axis_, j, k);
+    const Span faces = m_.faces(axis_, r);
     volume_fluxes(m_, s_, axis_, line, r, out);
     double* totals[2] = {own ? m_.mass_flux[static_cast<std::size_t>(axis_)].row(r) : unowned_.data(), nullptr};
     if (m_.sliding != nullptr) {
@@ -53,25 +54,29 @@ public:
       const TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
       const double unlimited = s_.limit ? 0.0 : 1.0;
       double* mass = out.flux(q, 1);
-      mass_fluxes(store, m_.volume, line, unlimited, faces_, out.flux(q, 0), mass, factors_);
+      const Span crossed = out.crossed(q);
+      for (int field = 1; field < store.conserved() && crossed != faces; ++field) {
+        std::fill(out.flux(q, field) + faces.begin, out.flux(q, field) + faces.end, 0.0);
+      }
+      mass_fluxes(store, m_.volume, line, unlimited, crossed, out.flux(q, 0), mass, factors_);
       for (int field = 2; field < store.conserved(); ++field) {
-        intensive_fluxes(store, field, line, unlimited, faces_, mass, factors_, out.flux(q, field));
+        intensive_fluxes(store, field, line, unlimited, crossed, mass, factors_, out.flux(q, field));
       }
       const std::size_t who = m_.slides(q) ? 1 : 0;
       double* total = totals[who];
       if (first[who]) {
-        std::copy(mass, mass + faces_, total);
+        std::copy(mass + faces.begin, mass + faces.end, total + faces.begin);
         first[who] = false;
         continue;
       }
 #pragma omp simd
-      for (int i = 0; i < faces_; ++i) {
+      for (int i = faces.begin; i < faces.end; ++i) {
         total[i] += mass[i];
       }
     }
     for (std::size_t who = 0; who < 2; ++who) {
       if (first[who] && totals[who] != nullptr) {
-        std::fill(totals[who], totals[who] + faces_, 0.0);
+        std::fill(totals[who] + faces.begin, totals[who] + faces.end, 0.0);
       }
     }
   }
@@ -79,14 +84,15 @@ public:
   /// New values of row (j, k) from the fluxes below and above it.
   void update(int j, int k, FaceRow& low, FaceRow& high, SlabSums& sums) {
     const Grid& g = m_.grid;
-    const int r = g.cell_row(j, k), n = g.cells[0];
+    const int r = g.cell_row(j, k);
     const int step = axis_ == 0 ? 1 : 0, stride = g.cell_row_stride(axis_);
     const double* v = m_.volume.row(r);
     double* v_next = m_.next_volume.row(r);
     const RowField& swept = m_.swept[static_cast<std::size_t>(axis_)];
     const double *s_low = swept.row(r), *s_high = swept.row(r + stride) + step;
+    const Span cells = m_.cells(r);
 #pragma omp simd
-    for (int i = 0; i < n; ++i) {
+    for (int i = cells.begin; i < cells.end; ++i) {
       v_next[i] = v[i] + s_high[i] - s_low[i];
     }
     sum_masses(r);
@@ -114,6 +120,7 @@ private:
   }
   void sum_masses(int r, bool sliding, double* sum) {
     const int n = m_.grid.cells[0];
+    const Span cells = m_.cells(r);
     bool first = true;
     for (int q = 0; q < m_.material_count(); ++q) {
       const TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
@@ -122,17 +129,17 @@ private:
       }
       const double* mass = store.row(1, r);
       if (first) {
-        std::copy(mass, mass + n, sum);
+        std::copy(mass + cells.begin, mass + cells.end, sum + cells.begin);
         first = false;
         continue;
       }
 #pragma omp simd
-      for (int i = 0; i < n; ++i) {
+      for (int i = cells.begin; i < cells.end; ++i) {
         sum[i] += mass[i];
       }
     }
     if (first) {
-      std::fill(sum, sum + n, 0.0);
+      std::fill(sum + cells.begin, sum + cells.end, 0.0);
     }
     sum[-1] = sum[0];
     sum[n] = sum[n - 1];
@@ -160,11 +167,11 @@ private:
 
   /// A row that one material fills, before and after.
   void update_sole(int q, int r, FaceRow& low, FaceRow& high, int step) {
-    const int n = m_.grid.cells[0];
+    const Span cells = m_.cells(r);
     for (int other = 0; other < m_.material_count(); ++other) {
       TileStore& store = *m_.materials[static_cast<std::size_t>(other)];
       for (int field = 0; field < store.conserved() && store.has_row(r); ++field) {
-        std::fill(store.next_row(field, r), store.next_row(field, r) + n, field == 0 && other == q ? 1.0 : 0.0);
+        std::fill(store.next_row(field, r) + cells.begin, store.next_row(field, r) + cells.end, field == 0 && other == q ? 1.0 : 0.0);
       }
     }
     if (!m_.is_void(q)) {
@@ -173,16 +180,17 @@ private:
   }
 
   void update_material(TileStore& store, int q, int r, FaceRow& low, FaceRow& high, int step, SlabSums& sums) {
-    const int n = m_.grid.cells[0];
+    const Span cells = m_.cells(r);
     const double *v = m_.volume.row(r), *v_next = m_.next_volume.row(r);
     const double* f = std::as_const(store).row(0, r);
     double* f_next = store.next_row(0, r);
     if (!low.present(q) && !high.present(q)) {
       for (int field = 0; field < store.conserved(); ++field) {
-        std::memcpy(store.next_row(field, r), std::as_const(store).row(field, r), sizeof(double) * static_cast<std::size_t>(n));
+        std::memcpy(store.next_row(field, r) + cells.begin, std::as_const(store).row(field, r) + cells.begin,
+                    sizeof(double) * static_cast<std::size_t>(cells.count()));
       }
 #pragma omp simd
-      for (int i = 0; i < n; ++i) {
+      for (int i = cells.begin; i < cells.end; ++i) {
         f_next[i] = f[i] == 0 || v_next[i] == v[i] ? f[i] : f[i] * v[i] / v_next[i];
       }
       if (!m_.is_void(q)) {
@@ -192,14 +200,14 @@ private:
     }
     const double *t_low = flux_or_zero(low, q, 0), *t_high = flux_or_zero(high, q, 0) + step;
 #pragma omp simd
-    for (int i = 0; i < n; ++i) {
+    for (int i = cells.begin; i < cells.end; ++i) {
       const bool same = (t_low[i] == 0) & (t_high[i] == 0) & (v_next[i] == v[i]);
       const double next = (f[i] * v[i] + t_low[i] - t_high[i]) / v_next[i];
       f_next[i] = same ? f[i] : next;
     }
     if (m_.is_void(q)) {
 #pragma omp simd
-      for (int i = 0; i < n; ++i) {
+      for (int i = cells.begin; i < cells.end; ++i) {
         f_next[i] = f_next[i] < sliver_fraction ? 0.0 : f_next[i];
       }
       return;
@@ -210,12 +218,12 @@ private:
 
   /// Mass and what it carries.
   void update_intensives(TileStore& store, int q, int r, FaceRow& low, FaceRow& high, int step) {
-    const int n = m_.grid.cells[0];
+    const Span cells = m_.cells(r);
     const double* mass = std::as_const(store).row(1, r);
     double* mass_next = store.next_row(1, r);
     const double *m_low = flux_or_zero(low, q, 1), *m_high = flux_or_zero(high, q, 1) + step;
 #pragma omp simd
-    for (int i = 0; i < n; ++i) {
+    for (int i = cells.begin; i < cells.end; ++i) {
       mass_next[i] = mass[i] + m_low[i] - m_high[i];
     }
     for (int field = 2; field < store.conserved(); ++field) {
@@ -223,7 +231,7 @@ private:
       double* x_next = store.next_row(field, r);
       const double *x_low = flux_or_zero(low, q, field), *x_high = flux_or_zero(high, q, field) + step;
 #pragma omp simd
-      for (int i = 0; i < n; ++i) {
+      for (int i = cells.begin; i < cells.end; ++i) {
         const bool same = (m_low[i] == 0) & (m_high[i] == 0), some = mass_next[i] > 0;
         const double safe = some ? mass_next[i] : 1.0;
         // (m x + in - out) / m_next as a change of x: a uniform value stays so to the bit.
@@ -249,12 +257,13 @@ private:
     double* mass = store.next_row(1, r);
     const double* volume = m_.next_volume.row(r);
     const double least = sliver_fraction * m_.reference_density_of(q);
+    const Span cells = m_.cells(r);
     int suspects = 0;
 #pragma omp simd reduction(+ : suspects)
-    for (int i = 0; i < m_.grid.cells[0]; ++i) {
+    for (int i = cells.begin; i < cells.end; ++i) {
       suspects += (f[i] < sliver_fraction) | !(mass[i] > least * volume[i]) ? 1 : 0;
     }
-    for (int i = 0; i < m_.grid.cells[0] && suspects > 0; ++i) {
+    for (int i = cells.begin; i < cells.end && suspects > 0; ++i) {
       if ((f[i] >= sliver_fraction && mass[i] > least * volume[i]) || (f[i] == 0 && mass[i] == 0)) {
         continue;
       }
@@ -269,10 +278,11 @@ private:
 
   /// Fractions of every cell sum to one exactly; the largest absorbs round-off.
   void normalise(int r) {
-    const int n = m_.grid.cells[0];
-    rest_.assign(static_cast<std::size_t>(n), 1.0);
-    most_.assign(static_cast<std::size_t>(n), 0.0);
-    who_.assign(static_cast<std::size_t>(n), -1.0);
+    const auto n = static_cast<std::size_t>(m_.grid.cells[0]);
+    const Span cells = m_.cells(r);
+    rest_.assign(n, 1.0);
+    most_.assign(n, 0.0);
+    who_.assign(n, -1.0);
     double *rest = rest_.data(), *most = most_.data(), *who = who_.data();
     for (int q = 0; q < m_.material_count(); ++q) {
       TileStore& store = *m_.materials[static_cast<std::size_t>(q)];
@@ -281,14 +291,14 @@ private:
       }
       const double* f = store.next_row(0, r);
 #pragma omp simd
-      for (int i = 0; i < n; ++i) {
+      for (int i = cells.begin; i < cells.end; ++i) {
         const double old = who[i];
         rest[i] -= f[i];
         who[i] = f[i] > most[i] ? q : old;
         most[i] = std::max(most[i], f[i]);
       }
     }
-    for (int i = 0; i < n; ++i) {
+    for (int i = cells.begin; i < cells.end; ++i) {
       const auto c = static_cast<std::size_t>(i);
       if (rest_[c] != 0 && who_[c] >= 0) {
         m_.materials[static_cast<std::size_t>(who_[c])]->next_row(0, r)[i] += rest_[c];
@@ -298,6 +308,7 @@ private:
 
   void boundary_sums(int j, int k, FaceRow& low, FaceRow& high, int step, SlabSums& sums) {
     const Grid& g = m_.grid;
+    const Span cells = m_.cells(g.cell_row(j, k));
     const int index = axis_ == 1 ? j : k, last = g.cells[static_cast<std::size_t>(axis_)] - 1;
     const auto add = [&](FaceRow& row, int face_begin, int face_end, double sign) {
       for (int q = 0; q < m_.material_count(); ++q) {
@@ -311,15 +322,15 @@ private:
       }
     };
     if (axis_ == 0) {
-      add(low, 0, 1, -1.0);
-      add(high, g.cells[0], g.cells[0] + step, 1.0);
+      add(low, 0, cells.begin == 0 ? 1 : 0, -1.0);
+      add(high, g.cells[0], cells.end == g.cells[0] ? g.cells[0] + step : 0, 1.0);
       return;
     }
     if (index == 0) {
-      add(low, 0, faces_, -1.0);
+      add(low, cells.begin, cells.end, -1.0);
     }
     if (index == last) {
-      add(high, 0, faces_, 1.0);
+      add(high, cells.begin, cells.end, 1.0);
     }
   }
 
@@ -336,7 +347,7 @@ template <int Dim>
 void sweep_cells(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int axis, Report& report) {
   const Grid& g = m.grid;
   std::vector<SlabSums> sums(static_cast<std::size_t>(g.slabs()));
-  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+  parallel_awake(pool, m.awake, g.slabs(), [&](int begin, int end, int) {
     CellSweep<Dim> sweep(m, settings, axis);
     const int faces = g.cells[0] + (axis == 0 ? 1 : 0);
     const bool outer = axis == Dim - 1;
@@ -349,7 +360,12 @@ void sweep_cells(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, int a
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
         FaceRow& low = carry[static_cast<std::size_t>(outer ? q : 0)];
-        if (axis == 0 || (outer ? s == begin : q == 0)) {
+        const int r = g.cell_row(j, k);
+        if (m.cells(r).empty()) {
+          continue;
+        }
+        const bool first = axis == 0 || (outer ? s == begin : q == 0) || m.cells(r - g.cell_row_stride(axis)).empty();
+        if (first) { // else carried
           sweep.fluxes(j, k, true, low);
         }
         if (axis == 0) {

@@ -48,11 +48,12 @@ public:
   void links(int j, int k, std::vector<double>* out) {
     const Grid& g = m_.grid;
     const int r = g.node_row(j, k), stride = g.node_row_stride(axis_), shift = axis_ == 0 ? 1 : 0;
-    dual_fluxes(j, k);
+    const Span awake = links_of(r);
+    dual_fluxes(j, k, awake);
     double* mass = out[0].data();
-    std::copy(flux_.begin(), flux_.begin() + links_, mass);
-    std::fill(out[Dim + 1].begin(), out[Dim + 1].begin() + links_, 0.0);
-    link_factors(r, stride, shift);
+    std::copy(flux_.begin() + awake.begin, flux_.begin() + awake.end, mass + awake.begin);
+    std::fill(out[Dim + 1].begin() + awake.begin, out[Dim + 1].begin() + awake.end, 0.0);
+    link_factors(r, stride, shift, awake);
     const double *t = flux_.data(), *central = central_.data(), *edge = edge_.data();
     const double unlimited = s_.limit ? 0 : 1;
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -61,7 +62,7 @@ public:
       const double *u2 = u.row(r), *u3 = u.row(r + stride) + shift;
       double *momentum = out[d + 1].data(), *kinetic = out[Dim + 1].data();
 #pragma omp simd
-      for (int i = 0; i < links_; ++i) {
+      for (int i = awake.begin; i < awake.end; ++i) {
         // Loads first, then selections: conditional loads would keep the loop from vectorising.
         const double ua = u0[i], ub = u1[i], uc = u2[i], ud = u3[i], give = t[i];
         const std::uint64_t positive = where_positive(give);
@@ -77,12 +78,13 @@ public:
   void update(int j, int k, const std::vector<double>* low, const std::vector<double>* high, SlabSums& sums) {
     const Grid& g = m_.grid;
     const int r = g.node_row(j, k), step = axis_ == 0 ? 1 : 0;
+    const Span awake = m_.nodes(r);
     const double* mass = g_.node_mass.row(r);
     double *next_mass = next_mass_row(r), *loss = lost_.data();
     const double *ml = low[0].data(), *mh = high[0].data() + step;
     const double *kl = low[Dim + 1].data(), *kh = high[Dim + 1].data() + step;
 #pragma omp simd
-    for (int i = 0; i < nodes_; ++i) {
+    for (int i = awake.begin; i < awake.end; ++i) {
       next_mass[i] = mass[i] + ml[i] - mh[i];
       loss[i] = kl[i] - kh[i];
     }
@@ -90,7 +92,7 @@ public:
       const double *u = g_.velocity[d].row(r), *pl = low[d + 1].data(), *ph = high[d + 1].data() + step;
       double* next = g_.next_velocity[d].row(r);
 #pragma omp simd
-      for (int i = 0; i < nodes_; ++i) {
+      for (int i = awake.begin; i < awake.end; ++i) {
         const bool holds = next_mass[i] > 1e-9 * (mass[i] + std::abs(ml[i]) + std::abs(mh[i]));
         // (M u + p_low - p_high) / M_next as a change of u: a uniform velocity stays so to the bit.
         const double change = (pl[i] - ml[i] * u[i]) - (ph[i] - mh[i] * u[i]);
@@ -104,13 +106,14 @@ public:
     hold_walls(j, k, sums);
     double* all = loss_.row(r);
     const double* lost = lost_.data();
-    sums.loss += lane_sum(lost, nodes_);
+    // The last awake node, unless it is the row's last, loses nothing: without it the lanes are those of the whole row.
+    sums.loss += lane_sum(lost + awake.begin, awake.count() - (awake.end == nodes_ ? 0 : 1));
     if (first_) {
-      std::copy(lost, lost + nodes_, all);
+      std::copy(lost + awake.begin, lost + awake.end, all + awake.begin);
       return;
     }
 #pragma omp simd
-    for (int i = 0; i < nodes_; ++i) {
+    for (int i = awake.begin; i < awake.end; ++i) {
       all[i] += lost[i];
     }
   }
@@ -129,7 +132,9 @@ public:
           continue;
         }
         const double want = m_.fixed_velocity[axis][side];
-        for (int i = axis == 0 ? at : 0; i < (axis == 0 ? at + 1 : nodes_); ++i) {
+        const Span awake = m_.nodes(r);
+        const int first = axis == 0 ? std::max(at, awake.begin) : awake.begin, end = axis == 0 ? std::min(at + 1, awake.end) : awake.end;
+        for (int i = first; i < end; ++i) {
           if (u[i] != want) {
             // m (u^2 - w^2)/2 = m (u - w)^2/2, lost, + w m (u - w), the wall's work.
             loss[i] += 0.5 * mass[i] * (u[i] - want) * (u[i] - want);
@@ -146,15 +151,24 @@ public:
   void set_next_mass(RowField* f) { next_mass_ = f; }
 
 private:
+  /// Links below the nodes of a row, along axis 0 also the one above the last, that end at an awake node.
+  Span links_of(int r) const {
+    const Span here = m_.nodes(r);
+    if (axis_ == 0) {
+      return here.empty() ? here : Span{here.begin, here.end + 1};
+    }
+    return hull(here, m_.nodes(r - m_.grid.node_row_stride(axis_)));
+  }
+
   /// What the links' masses say about rises of velocity along them; the same for every component.
-  void link_factors(int r, int stride, int shift) {
+  void link_factors(int r, int stride, int shift, Span links) {
     const double *t = flux_.data(), *lo = before_, *mid = between_, *hi = after_;
     const double *low = low_.data(), *high = high_.data();
     const double *held1 = g_.node_mass.row(r - stride) - shift, *held2 = g_.node_mass.row(r);
     double *central = central_.data(), *edge = edge_.data();
     const double hollow_share = m_.sliding != nullptr ? edge_share : empty_share;
 #pragma omp simd
-    for (int i = 0; i < links_; ++i) {
+    for (int i = links.begin; i < links.end; ++i) {
       const double give = t[i], m = mid[i], w1 = low[i] * m, w2 = high[i] * m, h1 = held1[i], h2 = held2[i], mass_a = lo[i], mass_c = hi[i];
       const std::uint64_t positive = where_positive(give);
       const double behind = select(positive, mass_a, mass_c) + 1e-300, ahead = m + 1e-300;
@@ -173,19 +187,21 @@ private:
   /// Dual mass flux of the links below the nodes of row (j, k), and the cell masses that their factors take. Both are
   /// linear in what the columns of cells beside the link hold, so those are summed first, weighted by the shares across
   /// the axis: S of masses by layer of cells, T of face fluxes by layer of faces. Then flux = w_high T_low + w_low T_high.
-  void dual_fluxes(int j, int k) {
+  void dual_fluxes(int j, int k, Span links) {
     const Grid& g = m_.grid;
     const int n = g.cells[static_cast<std::size_t>(axis_)];
     double *flux = flux_.data(), *low = low_.data(), *high = high_.data();
     if (axis_ == 0) {
       double *S = masses(1), *T = faces_low_.data();
-      sum_columns(j, k, g_.cell_mass, -1, 1, n + 1, S); // link i joins node i - 1 and node i through cell i - 1
-      sum_columns(j, k, g_.mass_flux[0], 0, 0, n + 1, T);
+      const Span faces = {std::max(links.begin - 1, 0), std::min(links.end, n + 1)};
+      // Link i joins node i - 1 and node i through cell i - 1.
+      sum_columns(j, k, g_.cell_mass, -1, std::max(links.begin - 1, 1), std::min(links.end + 1, n + 1), S);
+      sum_columns(j, k, g_.mass_flux[0], 0, faces.begin, faces.end, T);
       S[-1] = S[0] = S[1];
       S[n + 2] = S[n + 1] = S[n];
       const double* low0 = m_.low_share[0].data() + g.ghost[0];
 #pragma omp simd
-      for (int i = 1; i <= n; ++i) {
+      for (int i = std::max(links.begin, 1); i < std::min(links.end, n + 1); ++i) {
         const double w = low0[i - 1], rest = 1 - w;
         low[i] = w;
         high[i] = rest;
@@ -201,13 +217,14 @@ private:
     const auto layer = [&](int q) { return axis_ == 1 ? std::array<int, 2>{q, k} : std::array<int, 2>{j, q}; };
     const auto masses_of = [&](int q, double* out) {
       const auto [cj, ck] = layer(std::clamp(q, 0, n - 1));
-      sum_columns(cj, ck, g_.cell_mass, 0, 0, links_, out);
+      sum_columns(cj, ck, g_.cell_mass, 0, links.begin, links.end, out);
     };
     const auto fluxes_of = [&](int q, std::vector<double>& out) {
       const auto [cj, ck] = layer(std::clamp(q, 0, n));
-      sum_columns(cj, ck, g_.mass_flux[static_cast<std::size_t>(axis_)], 0, 0, links_, out.data());
+      sum_columns(cj, ck, g_.mass_flux[static_cast<std::size_t>(axis_)], 0, links.begin, links.end, out.data());
     };
-    if (last_ == (axis_ == 1 ? std::array<int, 2>{j - 1, k} : std::array<int, 2>{j, k - 1})) { // the link below: most is known
+    const bool follows = last_ == (axis_ == 1 ? std::array<int, 2>{j - 1, k} : std::array<int, 2>{j, k - 1});
+    if (follows && last_links_.holds(links)) { // the link below: most is known
       std::swap(faces_low_, faces_high_);
       std::swap(mass_rows_[0], mass_rows_[1]);
       std::swap(mass_rows_[1], mass_rows_[2]);
@@ -219,12 +236,13 @@ private:
     fluxes_of(here + 1, faces_high_);
     masses_of(here + 1, masses(2));
     last_ = {j, k};
+    last_links_ = links;
     const bool outside = at == 0 || at == n + 1;
     const double w = outside ? 1.0 : share_of(axis_, here, false), *T_low = faces_low_.data(), *T_high = faces_high_.data();
-    std::fill(low, low + links_, outside ? 0.0 : w);
-    std::fill(high, high + links_, outside ? 0.0 : 1 - w);
+    std::fill(low + links.begin, low + links.end, outside ? 0.0 : w);
+    std::fill(high + links.begin, high + links.end, outside ? 0.0 : 1 - w);
 #pragma omp simd
-    for (int i = 0; i < links_; ++i) {
+    for (int i = links.begin; i < links.end; ++i) {
       flux[i] = (1 - w) * T_low[i] + w * T_high[i];
     }
     set_masses(masses(0), masses(1), masses(2));
@@ -275,12 +293,12 @@ private:
       const double* low0 = m_.low_share[0].data() + g.ghost[0];
       if (column < 0) {
 #pragma omp simd
-        for (int i = 1; i <= g.cells[0]; ++i) {
+        for (int i = std::max(first, 1); i < end; ++i) {
           out[i] += share * (1 - low0[i - 1]) * value[i - 1];
         }
       } else {
 #pragma omp simd
-        for (int i = 0; i < g.cells[0]; ++i) {
+        for (int i = first; i < std::min(end, g.cells[0]); ++i) {
           out[i] += share * low0[i] * value[i];
         }
       }
@@ -301,13 +319,18 @@ private:
       }
       sums.kinetic_out += sign * l[Dim + 1][i];
     };
+    const Span awake = m_.nodes(g.node_row(j, k));
     if (axis_ == 0) {
-      add_link(low, 0, -1);
-      add_link(high, static_cast<std::size_t>(nodes_ - 1 + step), 1);
+      if (awake.begin == 0) {
+        add_link(low, 0, -1);
+      }
+      if (awake.end == nodes_) {
+        add_link(high, static_cast<std::size_t>(nodes_ - 1 + step), 1);
+      }
       return;
     }
     const int index = axis_ == 1 ? j : k, n = g.cells[static_cast<std::size_t>(axis_)];
-    for (int i = 0; i < nodes_; ++i) {
+    for (int i = awake.begin; i < awake.end; ++i) {
       if (index == 0) {
         add_link(low, static_cast<std::size_t>(i), -1);
       }
@@ -329,6 +352,7 @@ private:
   std::array<std::vector<double>, 3> mass_rows_; ///< S of three layers
   const double *before_ = nullptr, *between_ = nullptr, *after_ = nullptr;
   std::array<int, 2> last_ = {-9, -9}; ///< row of nodes whose links were the last
+  Span last_links_;                    ///< and which of them
 };
 
 template <int Dim>
@@ -340,7 +364,7 @@ void sweep_group(Mesh<Dim>& m, const Group<Dim>& group, const Settings& settings
   RowField &loss = m.scratch->node_loss, &next_mass = m.scratch->next_node_mass;
   const int slabs = g.slabs() + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
   std::vector<SlabSums> sums(static_cast<std::size_t>(slabs));
-  parallel_ranges(pool, slabs, [&](int begin, int end, int) {
+  parallel_awake(pool, m.awake, slabs, [&](int begin, int end, int) {
     NodeSweep<Dim> sweep(m, group, settings, loss, axis, first);
     sweep.set_next_mass(&next_mass);
     using Links = std::array<std::vector<double>, Dim + 2>;
@@ -356,7 +380,11 @@ void sweep_group(Mesh<Dim>& m, const Group<Dim>& group, const Settings& settings
       for (int q = 0; q < rows; ++q) {
         const int j = Dim == 3 ? q : s, k = Dim == 3 ? s : 0;
         Links& low = carry[static_cast<std::size_t>(outer ? q : 0)];
-        if (axis == 0 || (outer ? s == begin : q == 0)) {
+        const int r = g.node_row(j, k);
+        if (m.nodes(r).empty()) {
+          continue;
+        }
+        if (axis == 0 || (outer ? s == begin : q == 0) || m.nodes(r - g.node_row_stride(axis)).empty()) { // else carried
           sweep.links(j, k, low.data());
         }
         if (axis == 0) {
@@ -372,7 +400,13 @@ void sweep_group(Mesh<Dim>& m, const Group<Dim>& group, const Settings& settings
   for (std::size_t d = 0; d < Dim; ++d) {
     group.velocity[d].swap(group.next_velocity[d]);
   }
-  group.node_mass.swap(next_mass);
+  parallel_awake(pool, m.awake, slabs, [&](int begin, int end, int) { // copied: what sleeps has no second copy of it
+    for (int q = begin * rows; q < end * rows; ++q) {
+      const int r = Dim == 3 ? g.node_row(q % rows, q / rows) : g.node_row(q, 0);
+      const Span nodes = m.nodes(r);
+      std::copy(next_mass.row(r) + nodes.begin, next_mass.row(r) + nodes.end, group.node_mass.row(r) + nodes.begin);
+    }
+  });
   for (const SlabSums& s : sums) {
     for (std::size_t d = 0; d < 3; ++d) {
       report.momentum_out[d] += s.momentum_out[d];

@@ -16,16 +16,15 @@ namespace {
 template <int Dim> using Nodes = std::array<const RowField*, Dim>;
 
 template <bool Axisymmetric>
-void add_leg(const Grid& g, int axis, int j, const Nodes<2>& from, const Nodes<2>& to, double* out) {
+void add_leg(const Grid& g, int axis, int j, Span faces, const Nodes<2>& from, const Nodes<2>& to, double* out) {
   const int far = axis == 0 ? 1 : 0, step = axis == 0 ? 0 : 1; // the face's second node
   const int r0 = g.node_row(j, 0), r1 = g.node_row(j + far, 0);
   const double *ax0 = from[0]->row(r0), *ay0 = from[1]->row(r0), *bx0 = to[0]->row(r0), *by0 = to[1]->row(r0);
   const double *ax1 = from[0]->row(r1) + step, *ay1 = from[1]->row(r1) + step;
   const double *bx1 = to[0]->row(r1) + step, *by1 = to[1]->row(r1) + step;
-  const int count = g.cells[0] + (axis == 0 ? 1 : 0);
   const double sign = axis == 0 ? 1 : -1; // the quad's sense of rotation
 #pragma omp simd
-  for (int i = 0; i < count; ++i) {
+  for (int i = faces.begin; i < faces.end; ++i) {
     const QuadGeometry<Axisymmetric> q{{ax0[i], bx0[i], bx1[i], ax1[i]}, {ay0[i], by0[i], by1[i], ay1[i]}};
     const bool moved = ax0[i] != bx0[i] || ay0[i] != by0[i] || ax1[i] != bx1[i] || ay1[i] != by1[i];
     out[i] += moved ? sign * q.volume() : 0.0;
@@ -35,7 +34,7 @@ void add_leg(const Grid& g, int axis, int j, const Nodes<2>& from, const Nodes<2
 /// Component d moves, the others stand: the sweep of a bilinear face is the integral of its displacement
 /// over its projection, sum_q dx_q (4 J_q + 2 J_next + 2 J_last + J_opposite) / 36 with J twice the
 /// projection's triangle areas at the corners. Exact, and a third of a hexahedron's work.
-void add_leg(const Grid& g, int axis, int j, int k, int d, const Nodes<3>& from, const Nodes<3>& to, double* out) {
+void add_leg(const Grid& g, int axis, int j, int k, int d, Span faces, const Nodes<3>& from, const Nodes<3>& to, double* out) {
   // The face's four nodes, as (di, dj, dk), turning right-handed about +axis.
   static constexpr int face[3][4][3] = {{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}},
                                         {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}},
@@ -50,9 +49,8 @@ void add_leg(const Grid& g, int axis, int j, int k, int d, const Nodes<3>& from,
     u[q] = from[du]->row(r) + f[0];
     v[q] = from[dv]->row(r) + f[0];
   }
-  const int count = g.cells[0] + (axis == 0 ? 1 : 0);
 #pragma omp simd
-  for (int i = 0; i < count; ++i) {
+  for (int i = faces.begin; i < faces.end; ++i) {
     double jacobian[4], moved[4], sum = 0;
 #pragma GCC unroll 4
     for (int q = 0; q < 4; ++q) {
@@ -83,7 +81,7 @@ void compute_swept(Mesh<Dim>& m, ThreadPool& pool, const std::array<RowField, Di
     leg[at + 1][d] = &to[d];
   }
   const int slabs = g.cells[Dim - 1] + 1, rows = Dim == 3 ? g.cells[1] + 1 : 1;
-  parallel_ranges(pool, slabs, [&](int begin, int end, int) {
+  parallel_awake(pool, m.awake, slabs, [&](int begin, int end, int) {
     for (int s = begin; s < end; ++s) {
       for (int row = 0; row < rows; ++row) {
         const int j = Dim == 3 ? row : s, k = Dim == 3 ? s : 0;
@@ -92,14 +90,18 @@ void compute_swept(Mesh<Dim>& m, ThreadPool& pool, const std::array<RowField, Di
             continue;
           }
           double* out = m.swept[static_cast<std::size_t>(axis)].row(g.cell_row(j, k));
-          std::fill(out, out + g.cells[0] + (axis == 0 ? 1 : 0), 0.0);
+          const Span faces = m.faces(axis, g.cell_row(j, k));
+          if (faces.empty()) {
+            continue;
+          }
+          std::fill(out + faces.begin, out + faces.end, 0.0);
           for (std::size_t q = 0; q < Dim; ++q) {
             if constexpr (Dim == 3) {
-              add_leg(g, axis, j, k, sweep_axis(Dim, static_cast<int>(q), order), leg[q], leg[q + 1], out);
+              add_leg(g, axis, j, k, sweep_axis(Dim, static_cast<int>(q), order), faces, leg[q], leg[q + 1], out);
             } else if (m.axisymmetric) {
-              add_leg<true>(g, axis, j, leg[q], leg[q + 1], out);
+              add_leg<true>(g, axis, j, faces, leg[q], leg[q + 1], out);
             } else {
-              add_leg<false>(g, axis, j, leg[q], leg[q + 1], out);
+              add_leg<false>(g, axis, j, faces, leg[q], leg[q + 1], out);
             }
           }
         }

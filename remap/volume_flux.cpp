@@ -91,6 +91,7 @@ template <int Dim> void mixed_donor(const Mesh<Dim>& m, const Settings& s, const
         std::fill(f, f + out.faces(), 0.0);
       }
       out.flux(present[q], 0)[face] = std::copysign(given[q], donor.swept);
+      out.cross(present[q], {face, face + 1});
     }
   }
 }
@@ -99,6 +100,7 @@ template <int Dim> void mixed_donor(const Mesh<Dim>& m, const Settings& s, const
 
 template <int Dim>
 void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& line, int r_faces, FaceRow& out) {
+  const Span faces = m.faces(axis, r_faces);
   const double* swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces);
   const std::int8_t *below = m.owner_row(line.row[1]) + line.shift[1], *above = m.owner_row(line.row[2]) + line.shift[2];
   for (int k = 0; k < m.material_count(); ++k) {
@@ -108,9 +110,10 @@ void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& 
   out.sole = sole >= 0 && sole_owner(below, out.faces()) == sole ? sole : -1;
   if (out.sole >= 0) {
     out.set_present(sole, true);
+    out.cross(sole, faces);
     double* flux = out.flux(sole, 0);
 #pragma omp simd
-    for (int i = 0; i < out.faces(); ++i) {
+    for (int i = faces.begin; i < faces.end; ++i) {
       flux[i] = 0.0 - swept[i];
     }
     return;
@@ -120,7 +123,7 @@ void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& 
   const double* last_swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces - stride) - step;
   int current = -1;
   double* flux = nullptr;
-  for (int i = 0; i < out.faces(); ++i) {
+  for (int i = faces.begin; i < faces.end; ++i) {
     const double t = -swept[i];
     if (t == 0) {
       continue;
@@ -143,6 +146,7 @@ void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& 
       flux = out.flux(owner, 0);
     }
     flux[i] = t;
+    out.cross(owner, {i, i + 1});
   }
 }
 

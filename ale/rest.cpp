@@ -1,0 +1,266 @@
+#include "ale/rest.hpp"
+
+#include "ale/phases.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace ballast {
+
+namespace {
+
+/// Momentum (kg m/s) and kinetic energy (J) that nodes held at rest lose.
+struct Held {
+  std::array<double, 3> momentum = {0, 0, 0};
+  double energy = 0;
+};
+
+template <int Dim> using Nodes = std::array<RowField, Dim>;
+
+/// Calls hold(i) for the nodes of a row that move, but slower than still_speed.
+template <int Dim, class Hold> void for_slow_nodes(const Block<Dim>& b, const Nodes<Dim>& velocity, const Nodes<Dim>& jump, int r, Hold&& hold) {
+  const Span nodes = b.awake.nodes(r);
+  const double* u[2 * Dim];
+  const int rows = b.any_sliding() ? 2 * Dim : Dim;
+  for (int q = 0; q < rows; ++q) {
+    const auto d = static_cast<std::size_t>(q % Dim);
+    u[q] = (q < Dim ? velocity : jump)[d].row(r);
+  }
+  for (int i = nodes.begin; i < nodes.end; ++i) {
+    double fastest = 0;
+    for (int q = 0; q < rows; ++q) {
+      fastest = std::max(fastest, std::abs(u[q][i]));
+    }
+    if (fastest > 0 && fastest < b.still_speed) {
+      hold(i);
+    }
+  }
+}
+
+template <int Dim> void stop(Nodes<Dim>& velocity, Nodes<Dim>& jump, int r, int i) {
+  for (std::size_t d = 0; d < Dim; ++d) {
+    velocity[d].row(r)[i] = 0;
+    if (!jump[d].empty()) {
+      jump[d].row(r)[i] = 0;
+    }
+  }
+}
+
+/// Would the step after next find a mixed cell, whose nodes rest, as it is?
+template <int Dim> bool mixed_rests(const Block<Dim>& b, int i, int j, int k, bool spall) {
+  const int r = b.grid.cell_row(j, k);
+  double left = 1, most = 0, bath = 0;
+  bool conducts = false, cold = true;
+  for (const MaterialSlot& slot : b.materials) {
+    const double f = slot.store.row(field::fraction, r)[i];
+    left -= f;
+    most = std::max(most, f);
+    if (f <= 0) {
+      continue;
+    }
+    if (slot.is_void) {
+      if (b.reference_pressure != 0 || (b.motion.remaps() && to_be_closed(b, i, j, k, spall))) {
+        return false;
+      }
+      continue;
+    }
+    if (slot.store.row(slot.pressure_field(), r)[i] != 0) {
+      return false;
+    }
+    for (int a = 0; slot.strength && a < stress_components<Dim>; ++a) {
+      if (slot.store.row(field::stress + a, r)[i] != 0) {
+        return false;
+      }
+    }
+    conducts = conducts || slot.material.conductivity > 0;
+    bath += slot.material.conductivity > 0 ? 0 : slot.store.row(field::mass, r)[i];
+    cold = cold && (slot.material.conductivity == 0 || slot.store.row(field::energy, r)[i] == conduction_wall(slot));
+  }
+  return most + left == most && (cold || bath == 0);
+}
+
+template <int Dim> bool massless(const Block<Dim>& b, int i, int j, int k) {
+  double mass = 0;
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    mass += b.node_mass.row(b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)))[i + (corner & 1)];
+  }
+  return mass == 0;
+}
+
+/// Do the cells of [begin, end) press and pull on nothing that has mass?
+template <int Dim> bool nothing_pulls(const Block<Dim>& b, int begin, int end, int j, int k) {
+  const int r = b.grid.cell_row(j, k);
+  const std::int8_t* owner = b.owner_row(r);
+  const double* p = b.pressure.row(r);
+  int pulls = 0, presses = 0;
+  for (std::size_t a = 0; b.any_strength() && a < stress_components<Dim>; ++a) {
+    const double* s = b.stress[a].row(r);
+    for (int i = begin; i < end; ++i) {
+      pulls += s[i] != 0 ? 1 : 0;
+    }
+  }
+  for (int i = begin; i < end; ++i) {
+    presses += p[i] != 0 ? 1 : 0;
+  }
+  for (int i = begin; i < end && pulls == 0 && presses > 0; ++i) {
+    presses -= p[i] != 0 && owner[i] == b.void_index() && massless(b, i, j, k) ? 1 : 0;
+  }
+  return pulls == 0 && presses == 0;
+}
+
+/// Are those of [begin, end) that are pure whole?
+template <int Dim> bool pure_whole(const Block<Dim>& b, int begin, int end, int r) {
+  const std::int8_t* owner = b.owner_row(r);
+  for (int i = begin; i < end;) {
+    const std::int8_t mat = owner[i];
+    if (mat == mixed_cell) {
+      ++i;
+      continue;
+    }
+    const double* f = b.materials[static_cast<std::size_t>(mat)].store.row(field::fraction, r);
+    for (; i < end && owner[i] == mat; ++i) {
+      if (f[i] != 1) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Do nodes [begin, end) of a row stand, where the next remap wants them?
+template <int Dim> bool nodes_rest(const Block<Dim>& b, int r, int begin, int end) {
+  int moving = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const double *u = b.velocity[d].row(r), *x = b.position[d].row(r);
+    const double* target = b.motion.remaps() ? b.target[d].row(r) : x;
+    const double* jump = b.any_sliding() ? b.sliding.jump[d].row(r) : u;
+    for (int i = begin; i < end; ++i) {
+      moving += (u[i] != 0) | (jump[i] != 0) | (x[i] != target[i]) ? 1 : 0;
+    }
+  }
+  return moving == 0;
+}
+
+template <int Dim> bool cells_rest(const Block<Dim>& b, int begin, int end, int j, int k, bool spall) {
+  for (int side = 0; side < (1 << (Dim - 1)); ++side) {
+    if (!nodes_rest(b, b.grid.node_row(j + (side & 1), k + (side >> 1)), begin, end + 1)) {
+      return false;
+    }
+  }
+  const int r = b.grid.cell_row(j, k);
+  if (!nothing_pulls(b, begin, end, j, k) || !pure_whole(b, begin, end, r)) {
+    return false;
+  }
+  const std::int8_t* owner = b.owner_row(r);
+  for (int i = begin; i < end; ++i) {
+    if (owner[i] == mixed_cell && !mixed_rests(b, i, j, k, spall)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The hull of a row's restless tiles; only its ends are looked for.
+template <int Dim> Span restless(const Block<Dim>& b, int j, int k, bool spall) {
+  Span s = b.awake.cells(b.grid.cell_row(j, k));
+  constexpr int tile = Awake::tile;
+  while (!s.empty() && cells_rest(b, s.begin, std::min(s.begin + tile, s.end), j, k, spall)) {
+    s.begin = std::min(s.begin + tile, s.end);
+  }
+  while (!s.empty()) {
+    const int last = (s.end - 1) / tile * tile;
+    if (!cells_rest(b, last, s.end, j, k, spall)) {
+      break;
+    }
+    s.end = last;
+  }
+  return s;
+}
+
+template <int Dim> bool may_sleep(const Block<Dim>& b) {
+  const bool stands = b.motion.policy == MotionPolicy::lagrangian || b.motion.policy == MotionPolicy::eulerian;
+  return stands && !b.boundary.any(BoundaryKind::inflow);
+}
+
+} // namespace
+
+template <int Dim> double still_speed_of(const Block<Dim>& b) {
+  constexpr double few_ulp = 4 * std::numeric_limits<double>::epsilon();
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const MaterialSlot& slot : b.materials) {
+    if (!slot.is_void) {
+      slowest = std::min(slowest, sound_speed_squared(slot.material.eos, slot.reference.rho, slot.reference.e));
+    }
+  }
+  return std::isfinite(slowest) && slowest > 0 ? few_ulp * std::sqrt(slowest) : 0.0;
+}
+
+template <int Dim> void hold_still(Block<Dim>& b, int r, BoundaryEffect& effect) {
+  for_slow_nodes<Dim>(b, b.next_velocity, b.sliding.next_jump, r, [&](int i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double reaction = -b.node_mass.row(r)[i] * b.next_velocity[d].row(r)[i];
+      effect.impulse[d] += reaction;
+      effect.work += reaction * 0.5 * b.velocity[d].row(r)[i];
+    }
+    stop<Dim>(b.next_velocity, b.sliding.next_jump, r, i);
+  });
+}
+
+template <int Dim> void hold_still(Block<Dim>& b, ThreadPool& pool, Ledger& ledger) {
+  const Grid& g = b.grid;
+  const int planes = g.slabs() + 1;
+  std::vector<Held> held(static_cast<std::size_t>(planes));
+  parallel_awake(pool, &b.awake, planes, [&](int begin, int end, int) {
+    for (int plane = begin; plane < end; ++plane) {
+      for (int q = 0; q < (Dim == 3 ? g.cells[1] + 1 : 1); ++q) {
+        const int r = Dim == 3 ? g.node_row(q, plane) : g.node_row(plane, 0);
+        Held& h = held[static_cast<std::size_t>(plane)];
+        for_slow_nodes<Dim>(b, b.velocity, b.sliding.jump, r, [&](int i) {
+          for (std::size_t d = 0; d < Dim; ++d) {
+            const double m = b.node_mass.row(r)[i], u = b.velocity[d].row(r)[i];
+            h.momentum[d] += m * u;
+            h.energy += 0.5 * m * u * u;
+          }
+          stop<Dim>(b.velocity, b.sliding.jump, r, i);
+        });
+      }
+    }
+  });
+  for (const Held& h : held) {
+    ledger.remap_kinetic_loss += h.energy;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      ledger.momentum_out[d] += h.momentum[d];
+    }
+  }
+}
+
+template <int Dim> void follow_rest(Scene<Dim>& scene, Block<Dim>& b, bool remapped) {
+  b.awake_steps += b.awake.share();
+  if (!scene.numerics.sleeping || !may_sleep(b)) {
+    return;
+  }
+  const Grid& g = b.grid;
+  std::vector<Span> found(static_cast<std::size_t>(g.cell_rows()));
+  parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        found[static_cast<std::size_t>(g.cell_row(j, k))] = restless(b, j, k, scene.numerics.spall);
+      }
+    }
+  });
+  b.awake.follow(g, std::move(found), remapped || !b.motion.remaps());
+}
+
+template double still_speed_of<2>(const Block<2>&);
+template double still_speed_of<3>(const Block<3>&);
+template void hold_still<2>(Block<2>&, int, BoundaryEffect&);
+template void hold_still<3>(Block<3>&, int, BoundaryEffect&);
+template void hold_still<2>(Block<2>&, ThreadPool&, Ledger&);
+template void hold_still<3>(Block<3>&, ThreadPool&, Ledger&);
+template void follow_rest<2>(Scene<2>&, Block<2>&, bool);
+template void follow_rest<3>(Scene<3>&, Block<3>&, bool);
+
+} // namespace ballast
