@@ -23,10 +23,13 @@ public:
       : pitch_(g.cells[0] + 2), rows_(Dim == 3 ? g.cells[1] + 2 : 1),
         data_(static_cast<std::size_t>(components * pitch_ * rows_), 0.0), clean_(static_cast<std::size_t>(rows_), 1) {}
 
-  /// Row r (-1 .. n in 3D, 0 in 2D), to be written: zero but where it is written now.
-  CornerRows<Dim> blank_row(int r) {
-    clear(Dim == 3 ? r + 1 : 0);
-    clean_[static_cast<std::size_t>(Dim == 3 ? r + 1 : 0)] = 0;
+  /// Row r (-1 .. n in 3D, 0 in 2D), for some of its cells to be written; it is zero elsewhere.
+  CornerRows<Dim> row_for(int r, Span cells) {
+    const int at = Dim == 3 ? r + 1 : 0;
+    if (cells.count() < pitch_ - 2) {
+      clear(at);
+    }
+    clean_[static_cast<std::size_t>(at)] = cells.empty() ? 1 : 0;
     return row(r);
   }
   CornerRows<Dim> row(int r) {
@@ -67,15 +70,16 @@ private:
 template <int Dim>
 void fill_slab(const Block<Dim>& b, const ForceCoefficients& c, int slab, CornerSlab<Dim>& out) {
   const Grid& g = b.grid;
-  out.clear();
   if (slab < 0 || slab >= g.slabs()) {
+    out.clear();
     return;
   }
   for (int q = 0; q < g.rows_per_slab(); ++q) {
     const auto [j, k] = g.in_slab(slab, q);
     const Span cells = b.awake.cells(g.cell_row(j, k));
+    const CornerRows<Dim> rows = out.row_for(q, cells);
     if (!cells.empty()) {
-      corner_forces(b, ForceRows<Dim>(b, j, k).from(cells.begin), c, cells.count(), out.blank_row(q).from(cells.begin));
+      corner_forces(b, ForceRows<Dim>(b, j, k).from(cells.begin), c, cells.count(), rows.from(cells.begin));
     }
   }
 }

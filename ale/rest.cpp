@@ -19,24 +19,42 @@ struct Held {
 
 template <int Dim> using Nodes = std::array<RowField, Dim>;
 
-/// Calls hold(i) for the nodes of a row that move, but slower than still_speed.
-template <int Dim, class Hold> void for_slow_nodes(const Block<Dim>& b, const Nodes<Dim>& velocity, const Nodes<Dim>& jump, int r, Hold&& hold) {
-  const Span nodes = b.awake.nodes(r);
-  const double* u[2 * Dim];
-  const int rows = b.any_sliding() ? 2 * Dim : Dim;
-  for (int q = 0; q < rows; ++q) {
-    const auto d = static_cast<std::size_t>(q % Dim);
-    u[q] = (q < Dim ? velocity : jump)[d].row(r);
-  }
+/// How many nodes of a row move, but slower than `least` in each of the `Rows` components.
+template <int Rows> int count_slow(const double* const (&u)[Rows], Span nodes, double least) {
+  int slow = 0;
+#pragma omp simd reduction(+ : slow)
   for (int i = nodes.begin; i < nodes.end; ++i) {
     double fastest = 0;
-    for (int q = 0; q < rows; ++q) {
-      fastest = std::max(fastest, std::abs(u[q][i]));
+#pragma GCC unroll 6
+    for (int q = 0; q < Rows; ++q) {
+      const double speed = std::abs(u[q][i]);
+      fastest = speed > fastest ? speed : fastest;
     }
-    if (fastest > 0 && fastest < b.still_speed) {
+    slow += (fastest > 0) & (fastest < least) ? 1 : 0;
+  }
+  return slow;
+}
+
+/// Calls hold(i) for those nodes.
+template <int Rows, class Hold> void for_slow(const double* const (&u)[Rows], Span nodes, double least, Hold&& hold) {
+  if (count_slow(u, nodes, least) == 0) {
+    return;
+  }
+  for (int i = nodes.begin; i < nodes.end; ++i) {
+    if (count_slow(u, {i, i + 1}, least) > 0) {
       hold(i);
     }
   }
+}
+
+/// Calls hold(i) for the nodes of a row that move, but slower than still_speed, jumps between two velocities included.
+template <int Dim, class Hold> void for_slow_nodes(const Block<Dim>& b, const Nodes<Dim>& velocity, const Nodes<Dim>& jump, int r, Hold&& hold) {
+  const double *u[Dim], *both[2 * Dim];
+  for (std::size_t d = 0; d < Dim; ++d) {
+    u[d] = both[d] = velocity[d].row(r);
+    both[Dim + d] = b.any_sliding() ? jump[d].row(r) : u[d];
+  }
+  b.any_sliding() ? for_slow(both, b.awake.nodes(r), b.still_speed, hold) : for_slow(u, b.awake.nodes(r), b.still_speed, hold);
 }
 
 template <int Dim> void stop(Nodes<Dim>& velocity, Nodes<Dim>& jump, int r, int i) {
@@ -132,7 +150,7 @@ template <int Dim> bool pure_whole(const Block<Dim>& b, int begin, int end, int 
 /// Do nodes [begin, end) of a row stand, where the next remap wants them?
 template <int Dim> bool nodes_rest(const Block<Dim>& b, int r, int begin, int end) {
   int moving = 0;
-  for (std::size_t d = 0; d < Dim; ++d) {
+  for (std::size_t d = 0; d < Dim && moving == 0; ++d) {
     const double *u = b.velocity[d].row(r), *x = b.position[d].row(r);
     const double* target = b.motion.remaps() ? b.target[d].row(r) : x;
     const double* jump = b.any_sliding() ? b.sliding.jump[d].row(r) : u;

@@ -355,6 +355,18 @@ private:
   Span last_links_;                    ///< and which of them
 };
 
+template <int Dim> void copy_awake_nodes(const Mesh<Dim>& m, const RowField& from, RowField& to, ThreadPool& pool) {
+  const Grid& g = m.grid;
+  const int rows = Dim == 3 ? g.cells[1] + 1 : 1;
+  parallel_awake(pool, m.awake, g.slabs() + 1, [&](int begin, int end, int) {
+    for (int q = begin * rows; q < end * rows; ++q) {
+      const int r = Dim == 3 ? g.node_row(q % rows, q / rows) : g.node_row(q, 0);
+      const Span nodes = m.nodes(r);
+      std::copy(from.row(r) + nodes.begin, from.row(r) + nodes.end, to.row(r) + nodes.begin);
+    }
+  });
+}
+
 template <int Dim>
 void sweep_group(Mesh<Dim>& m, const Group<Dim>& group, const Settings& settings, ThreadPool& pool, int axis, bool first, Report& report) {
   const Grid& g = m.grid;
@@ -400,13 +412,11 @@ void sweep_group(Mesh<Dim>& m, const Group<Dim>& group, const Settings& settings
   for (std::size_t d = 0; d < Dim; ++d) {
     group.velocity[d].swap(group.next_velocity[d]);
   }
-  parallel_awake(pool, m.awake, slabs, [&](int begin, int end, int) { // copied: what sleeps has no second copy of it
-    for (int q = begin * rows; q < end * rows; ++q) {
-      const int r = Dim == 3 ? g.node_row(q % rows, q / rows) : g.node_row(q, 0);
-      const Span nodes = m.nodes(r);
-      std::copy(next_mass.row(r) + nodes.begin, next_mass.row(r) + nodes.end, group.node_mass.row(r) + nodes.begin);
-    }
-  });
+  if (m.awake == nullptr || m.awake->share() == 1) {
+    group.node_mass.swap(next_mass);
+  } else {
+    copy_awake_nodes(m, next_mass, group.node_mass, pool); // what sleeps has no second copy of its mass
+  }
   for (const SlabSums& s : sums) {
     for (std::size_t d = 0; d < 3; ++d) {
       report.momentum_out[d] += s.momentum_out[d];

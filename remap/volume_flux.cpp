@@ -121,8 +121,13 @@ void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& 
   const int stride = m.grid.cell_row_stride(axis), step = axis == 0 ? 1 : 0;
   const double* next_swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces + stride) + step;
   const double* last_swept = m.swept[static_cast<std::size_t>(axis)].row(r_faces - stride) - step;
-  int current = -1;
+  int current = -1, start = 0; // of the run of faces that one pure material crosses
   double* flux = nullptr;
+  const auto end_run = [&](int end) {
+    if (current >= 0) {
+      out.cross(current, {start, end});
+    }
+  };
   for (int i = faces.begin; i < faces.end; ++i) {
     const double t = -swept[i];
     if (t == 0) {
@@ -133,11 +138,14 @@ void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& 
       const double opposite = std::max(0.0, t > 0 ? last_swept[i] : -next_swept[i]);
       const int row = t > 0 ? line.row[1] : line.row[2], index = i + (t > 0 ? line.shift[1] : line.shift[2]);
       mixed_donor(m, s, {row, index, axis, m.volume.row(row)[index], t, opposite}, out, i);
+      end_run(i);
       current = -1;
       continue;
     }
     if (owner != current) {
+      end_run(i);
       current = owner;
+      start = i;
       if (!out.present(owner)) {
         out.set_present(owner, true);
         double* f = out.flux(owner, 0);
@@ -146,8 +154,8 @@ void volume_fluxes(const Mesh<Dim>& m, const Settings& s, int axis, const Line& 
       flux = out.flux(owner, 0);
     }
     flux[i] = t;
-    out.cross(owner, {i, i + 1});
   }
+  end_run(faces.end);
 }
 
 template void volume_fluxes<2>(const Mesh<2>&, const Settings&, int, const Line&, int, FaceRow&);

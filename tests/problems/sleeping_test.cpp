@@ -229,6 +229,8 @@ std::vector<Case> cases() {
       {"ball in void", ball(no_air, ""), 0.6},
       {"sliding", ball(no_air, sliding), 0.6},
       {"remapped every third step", ball(no_air, "[motion]\nremap_every = 3"), 0.6},
+      {"remapped by quality", ball(no_air, "[motion]\nremap_quality = 0.7"), 0.8},
+      {"Steinberg-Guinan", ball(std::string(no_air) + "\n[materials.lead]\nbase = \"lead_steinberg\"", ""), 0.6},
       {"in air", ball("background = \"air\"", sliding), 0.6},
       {"absorbing sides", ball(no_air, "", "absorbing"), 0.6},
       {"outflow sides", ball(no_air, "", "outflow"), 0.6},
