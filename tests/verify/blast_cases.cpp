@@ -3,6 +3,7 @@
 #include "tests/exact/sedov.hpp"
 #include "tests/verify/cases.hpp"
 #include "tests/verify/measure.hpp"
+#include "tests/verify/radial.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,36 +66,6 @@ template <int Dim> Scene<Dim> blast(int n, double box, double corner_energy, Mot
   });
   scene.blocks.push_back(std::move(b));
   return scene;
-}
-
-template <int Dim> double centre_radius(const Block<Dim>& b, int i, int j, int k) {
-  double r2 = 0;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    double x = 0;
-    for (int c = 0; c < (1 << Dim); ++c) {
-      x += b.position[d].row(b.grid.node_row(j + ((c >> 1) & 1), k + ((c >> 2) & 1)))[i + (c & 1)] / (1 << Dim);
-    }
-    r2 += x * x;
-  }
-  return std::sqrt(r2);
-}
-
-/// Density by radius: mean over shells half a cell thick.
-template <int Dim> std::vector<TubeCell> radial_density(const Block<Dim>& b, double h) {
-  std::vector<double> mass(1000), volume(1000);
-  for_each_cell(b, [&](int i, int j, int k) {
-    const auto shell = static_cast<std::size_t>(centre_radius(b, i, j, k) / h);
-    const int r = b.grid.cell_row(j, k);
-    mass[shell] += b.density.row(r)[i] * b.volume.row(r)[i];
-    volume[shell] += b.volume.row(r)[i];
-  });
-  std::vector<TubeCell> out;
-  for (std::size_t s = 0; s < mass.size(); ++s) {
-    if (volume[s] > 0) {
-      out.push_back({(static_cast<double>(s) + 0.5) * h, h, mass[s] / volume[s], 0, 0, false});
-    }
-  }
-  return out;
 }
 
 template <int Dim> double peak_density(const Block<Dim>& b) {

@@ -12,6 +12,14 @@ std::vector<VerifyCase> verification_cases() {
   verify::add_remap_interval_cases(cases);
   verify::add_impact_cases(cases);
   verify::add_blast_cases(cases);
+  verify::add_noh_cases(cases);
+  verify::add_slanted_cases(cases);
+  verify::add_vacuum_cases(cases);
+  verify::add_triple_point_cases(cases);
+  verify::add_deformation_cases(cases);
+  verify::add_vibration_cases(cases);
+  verify::add_carried_plate_cases(cases);
+  verify::add_collapse_cases(cases);
   verify::add_rest_cases(cases);
   verify::add_piston_cases(cases);
   verify::add_frame_cases(cases);

@@ -1,9 +1,11 @@
 #include "tests/verify/measure.hpp"
 
+#include "core/error.hpp"
 #include "tests/verify/trial.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 namespace ballast::verify {
@@ -105,11 +107,37 @@ TubeRun<Dim> run_scene(Scene<Dim>&& scene, double end_time, const std::vector<Ob
   return r;
 }
 
+template <int Dim> std::string try_scene(Scene<Dim>&& scene, double end_time, TubeRun<Dim>& run) {
+  std::string why;
+  run.scene = std::move(scene);
+  run.clock = {};
+  run.clock.end_time = end_time;
+  prepare(run.scene);
+  run.start = totals(run.scene.blocks[0]);
+  try {
+    go(run.scene, run.clock);
+  } catch (const NumericalFailure& failure) {
+    why = failure.what();
+  }
+  run.end = totals(run.scene.blocks[0]);
+  return why;
+}
+
+template <int Dim> bool ends(VerifyReport& r, const std::string& name, Scene<Dim>&& scene, double end_time, TubeRun<Dim>& run) {
+  const std::string why = try_scene(std::move(scene), end_time, run);
+  r.close(name + ", end time" + (why.empty() ? "" : fmt::format(" ({})", why)), end_time, 1e-12, run.clock.time);
+  return why.empty();
+}
+
 template void conserves<2>(VerifyReport&, const std::string&, const TubeRun<2>&);
 template void conserves<3>(VerifyReport&, const std::string&, const TubeRun<3>&);
 template void untouched<2>(VerifyReport&, const std::string&, const TubeRun<2>&);
 template void untouched<3>(VerifyReport&, const std::string&, const TubeRun<3>&);
 template TubeRun<2> run_scene<2>(Scene<2>&&, double, const std::vector<Observer<2>*>&);
 template TubeRun<3> run_scene<3>(Scene<3>&&, double, const std::vector<Observer<3>*>&);
+template std::string try_scene<2>(Scene<2>&&, double, TubeRun<2>&);
+template std::string try_scene<3>(Scene<3>&&, double, TubeRun<3>&);
+template bool ends<2>(VerifyReport&, const std::string&, Scene<2>&&, double, TubeRun<2>&);
+template bool ends<3>(VerifyReport&, const std::string&, Scene<3>&&, double, TubeRun<3>&);
 
 } // namespace ballast::verify

@@ -53,4 +53,9 @@ TubeRun<2> run_watched(const Tube& tube, const std::vector<Observer<2>*>& observ
 template <int Dim>
 TubeRun<Dim> run_scene(Scene<Dim>&& scene, double end_time, const std::vector<Observer<Dim>*>& observers = {});
 
+/// The same for a run that may fail: why it did, empty if it did not.
+template <int Dim> std::string try_scene(Scene<Dim>&& scene, double end_time, TubeRun<Dim>& run);
+/// That as a gate: the end is reached. A run that fails is a row of the report with its reason, not the end of the case; false then.
+template <int Dim> bool ends(VerifyReport& r, const std::string& name, Scene<Dim>&& scene, double end_time, TubeRun<Dim>& run);
+
 } // namespace ballast::verify
