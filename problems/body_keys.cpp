@@ -26,6 +26,20 @@ const SectionSpec& pick(const PerDimension& specs, std::size_t dim) {
 
 const std::vector<std::string> directions = {"+x", "-x", "+y", "-y", "+z", "-z"};
 
+SectionSpec radial_spec(std::size_t dim) {
+  return {"[body.velocity_radial]",
+          "Speed along the outward radius R, `speed` x (`at` / R)^`power`: `velocity_radial = { speed = \"-417.1 m/s\", at = \"80 mm\" }` is a shell whose inner "
+          "surface, at 80 mm, moves in with its volume kept everywhere.",
+          {{.name = "speed", .kind = quantity, .doc = "outward; below 0: inward", .dimension = Dimension::velocity, .required = true},
+           {.name = "at", .kind = quantity, .doc = "radius where it is that; required unless `power` is 0", .dimension = Dimension::length, .range = positive()},
+           {.name = "power",
+            .kind = quantity,
+            .doc = "default: the one that keeps volumes, 1 around an axis or in a planar scene, 2 around a point; 0: one speed; -1: every radius in proportion",
+            .range = {-4, 4}},
+           point("centre", dim, "point the radius is taken from; default the origin", false),
+           {.name = "axis", .kind = choice, .doc = "the radius is taken from this axis through `centre` instead; axisymmetric: z", .choices = {"z", "x", "y"}}}};
+}
+
 SectionSpec box_spec(std::size_t dim) {
   return {
       "box", "", {point("from", dim, "low corner", true), point("to", dim, "high corner", true)}};
@@ -109,6 +123,9 @@ const SectionSpec& body() {
         .doc = "one velocity an axis: `[\"0 m/s\", \"823 m/s\"]`; for a library part one speed "
                "along its axis. "
                "Default: at rest"},
+       {.name = "velocity_radial",
+        .kind = table,
+        .doc = "beside `velocity`: along the radius from a point or an axis (below); for shells that collapse or expand"},
        {.name = "density",
         .kind = quantity,
         .doc = "initial density, the material's if absent",
@@ -167,6 +184,10 @@ const SectionSpec& shape() {
   return spec;
 }
 
+const SectionSpec& velocity_radial(std::size_t dim) {
+  static const PerDimension specs = {radial_spec(2), radial_spec(3)};
+  return pick(specs, dim);
+}
 const SectionSpec& box(std::size_t dim) {
   static const PerDimension specs = {box_spec(2), box_spec(3)};
   return pick(specs, dim);
