@@ -4,7 +4,8 @@
 // surface (a shell on a polar mesh) fills its cells exactly. Where a surface cuts a cell, lines are cast along the logical
 // axis that meets surfaces most often, cut where their owner changes, and weighted with the Jacobian of the map (axisymmetric: times r).
 // The error is below 2e-3 of a cell for surfaces smooth on the cell's scale; layers thinner than 1/16 of a cell may be missed.
-// The fraction is then taken of the cell with straight edges that the block has.
+// The fraction is then taken of the cell with straight edges that the block has: a body that cuts cells is off in volume by its share of
+// their sides' bulges, second order in the cell.
 #pragma once
 
 #include "core/mesh_map.hpp"

@@ -141,5 +141,119 @@ TEST(MappedBlock, SphericalSectorFallsEvenlyUnderALinearPressure) {
   EXPECT_LT(fine.radial, 0.7 * coarse.radial);
 }
 
+/// Gas that streams through a mesh at rest, open all round but at the axis of an axisymmetric one, at the pressure beyond.
+template <int Dim> void streams(const MeshMap& map, bool rz, const std::array<std::vector<double>, 3>& lines, int remap_every) {
+  Scene<Dim> scene;
+  Block<Dim> b;
+  b.axisymmetric = rz;
+  b.map = map;
+  b.motion = {MotionPolicy::eulerian, remap_every};
+  b.materials.push_back(make_slot(gas(), 0));
+  b.reference_pressure = pressure(gas().eos, 1, 1.0);
+  b.materials[0].reference = {1, 1.0, b.reference_pressure, 0.0};
+  allocate_block(b, lines);
+  for_each_cell(b, [&](int i, int j, int k) { fill_cell<Dim>(b, i, j, k, std::vector<CellPart>{{0, 1, 1, 1.0}}); });
+  const std::array<double, 3> u = {rz ? 0 : 0.4, -0.3, 0.2};
+  set_velocity(b, [&](const std::array<double, Dim>&, std::array<double, Dim>& v) { std::copy(u.begin(), u.begin() + Dim, v.begin()); });
+  for (std::size_t a = 0; a < Dim; ++a) {
+    for (int side = 0; side < 2; ++side) {
+      const bool axis = rz && b.boundary.normal_of(static_cast<int>(a), side) == 0;
+      b.boundary.side[a][static_cast<std::size_t>(side)].kind = axis ? BoundaryKind::symmetry : BoundaryKind::free;
+    }
+  }
+  scene.blocks.push_back(std::move(b));
+  prepare(scene);
+  Clock clock;
+  clock.end_time = 1;
+  for (int step = 0; step < 24; ++step) {
+    advance(scene, clock);
+  }
+  const Block<Dim>& done = scene.blocks[0];
+  double worst = 0;
+  for_each_cell(done, [&](int i, int j, int k) {
+    const int r = done.grid.cell_row(j, k);
+    worst = std::max({worst, std::abs(done.density.row(r)[i] - 1), std::abs(done.materials[0].store.row(field::energy, r)[i] - 1)});
+    for (std::size_t d = 0; d < Dim; ++d) {
+      worst = std::max(worst, std::abs(done.velocity[d].row(done.grid.node_row(j, k))[i] - u[d]));
+    }
+  });
+  EXPECT_GT(clock.time, 0.01);
+  EXPECT_LT(worst, 1e-12);
+}
+
+TEST(MappedBlock, UniformFlowThroughAMeshAtRestStaysUniform) {
+  for (const int every : {1, 3}) {
+    streams<2>({MapKind::polar, {0.1, 0, 0}, 0}, false, {uniform(0.3, 1, 7), uniform(0.2, 1.9, 9), {}}, every);
+    streams<2>({MapKind::disc, {0, 0, 0}, 1}, false, {uniform(-1, 1, 12), uniform(-1, 1, 12), {}}, every);
+    streams<2>({MapKind::spherical, {0, 0, 0}, 0}, true, {uniform(0, 2 * right, 12), uniform(0.3, 1, 7), {}}, every);
+    streams<2>({MapKind::ball_section, {0, 0, 0}, 1}, true, {uniform(0, 1, 6), uniform(-1, 1, 12), {}}, every);
+    streams<3>({MapKind::cylindrical, {0, 0, 0}, 0}, false, {uniform(0.3, 1, 5), uniform(0.2, 1.9, 7), uniform(0, 1, 5)}, every);
+    streams<3>({MapKind::rod, {0, 0, 0}, 1}, false, {uniform(-1, 1, 8), uniform(-1, 1, 8), uniform(0, 1, 4)}, every);
+    streams<3>({MapKind::ball, {0, 0, 0}, 1}, false, {uniform(-1, 1, 8), uniform(-1, 1, 8), uniform(-1, 1, 8)}, every);
+  }
+}
+
+/// Gas of random pressures in a quarter between planes of symmetry that are y = 0 and x = 0, not the grid's axes.
+void stays_between_planes(const MeshMap& map, bool rz, const std::array<std::vector<double>, 3>& lines, MotionPolicy motion) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> some(0.5, 1.5);
+  Scene<2> scene;
+  scene.blocks.push_back(block_on(map, rz, lines, [&](const auto&, const auto&) { return some(random); }));
+  Block<2>& b = scene.blocks[0];
+  b.motion.policy = motion;
+  b.boundary.side[rz ? 1 : 0] = {BoundarySide{BoundaryKind::free}, BoundarySide{BoundaryKind::free}};
+  prepare(scene);
+  Clock clock;
+  clock.end_time = 1;
+  const Totals start = totals(b);
+  for (int step = 0; step < 30; ++step) {
+    advance(scene, clock);
+  }
+  const int along = rz ? 1 : 0; // the grid's axis that is the radius
+  double sliding = 0;
+  for (int q = 0; q <= b.grid.cells[static_cast<std::size_t>(along)]; ++q) {
+    for (int side = 0; side < 2; ++side) {
+      const int end = side == 0 ? 0 : b.grid.cells[static_cast<std::size_t>(1 - along)];
+      const int r = b.grid.node_row(rz ? q : end, 0), i = rz ? end : q;
+      const auto normal = static_cast<std::size_t>(b.boundary.normal_of(1 - along, side));
+      EXPECT_EQ(b.velocity[normal].row(r)[i], 0);
+      EXPECT_EQ(b.position[normal].row(r)[i], 0);
+      sliding = std::max(sliding, std::abs(b.velocity[1 - normal].row(r)[i]));
+    }
+  }
+  EXPECT_GT(sliding, 0.01);
+  const Totals end = totals(b);
+  for (std::size_t d = rz ? 1 : 0; d < 2; ++d) { // hoop forces make radial momentum
+    EXPECT_NEAR(end.momentum[d] + scene.ledger.momentum_out[d], start.momentum[d], 1e-13);
+  }
+  EXPECT_NEAR(end.mass[0] + scene.ledger.mass_out[0], start.mass[0], 1e-13 * start.mass[0]);
+}
+
+TEST(MappedBlock, PlanesOfSymmetryHoldTheirOwnComponent) {
+  for (const MotionPolicy motion : {MotionPolicy::lagrangian, MotionPolicy::eulerian}) {
+    stays_between_planes({MapKind::polar, {0, 0, 0}, 0}, false, {uniform(0.5, 1, 6), uniform(0, right, 8), {}}, motion);
+    stays_between_planes({MapKind::spherical, {0, 0, 0}, 0}, true, {uniform(0, right, 8), uniform(0.5, 1, 6), {}}, motion);
+  }
+}
+
+/// Ghost nodes beyond a plane are its mirror images: u = x on the quarter goes on as x beyond x = 0 and y = 0.
+TEST(MappedBlock, GhostNodesMirrorAcrossThePlane) {
+  Block<2> b = block_on({MapKind::polar, {0, 0, 0}, 0}, false, {uniform(0.5, 1, 4), uniform(0, right, 4), {}}, [](const auto&, const auto&) { return 1.0; });
+  set_velocity(b, [](const std::array<double, 2>& x, std::array<double, 2>& u) { u = x; });
+  const int n = b.grid.cells[1];
+  for (int d = 0; d < 2; ++d) {
+    exchange_nodes(b.grid, b.boundary, d, b.velocity[static_cast<std::size_t>(d)]);
+    for (int q = 1; q <= 2; ++q) {
+      const double* u = b.velocity[static_cast<std::size_t>(d)].row(b.grid.node_row(-q, 0));
+      const double* v = b.velocity[static_cast<std::size_t>(d)].row(b.grid.node_row(n + q, 0));
+      for (int i = 0; i <= 4; ++i) {
+        const double radius = 0.5 + 0.125 * i, low = -q * right / 4, high = right + q * right / 4;
+        EXPECT_NEAR(u[i], radius * (d == 0 ? std::cos(low) : std::sin(low)), 1e-15);
+        EXPECT_NEAR(v[i], radius * (d == 0 ? std::cos(high) : std::sin(high)), 1e-15);
+      }
+    }
+  }
+}
+
 } // namespace
 } // namespace ballast

@@ -148,7 +148,7 @@ void shell_case(VerifyReport& r, bool sphere, MotionPolicy motion, double speed,
   r.note(name + ", elastic, exact radius (mm)", exact::stopping_radius(shell, speed) * 1e3);
   for (const int through : refine ? std::vector<int>{10, 20, 40} : std::vector<int>{40}) {
     const Stop got = collapse(shell, speed, motion, through, 3 * through / 4);
-    const std::string at = fmt::format("{}, {} cells: ", name, through);
+    const std::string cells = fmt::format("{}, {} cells", name, through), at = cells + ": ";
     if (through == 40) {
       r.close(at + "stopping radius (mm)", want, 0.015, got.radius * 1e3);
     } else {
@@ -156,7 +156,7 @@ void shell_case(VerifyReport& r, bool sphere, MotionPolicy motion, double speed,
     }
     r.note(at + "stops at (us)", got.time * 1e6);
     r.note(at + "inner radius, spread over the angle", got.spread);
-    conserves(r, at, got.run);
+    conserves(r, cells, got.run);
     r.set_cells(got.run.scene.blocks[0].grid.cell_count());
   }
 }
