@@ -67,12 +67,12 @@ private:
 };
 
 /// -1: void, or mixed with void where polygons cover the rest.
-template <int Dim> int drawn_material(const Block<Dim>& b, int r, int i) {
+template <int Dim> int drawn_material(const Block<Dim>& b, int layer, int r, int i) {
   const int owner = b.owner_row(r)[i], hole = b.void_index();
   if (owner >= 0) {
     return owner == hole ? -1 : owner;
   }
-  if (hole >= 0 && in_section<Dim>(b.grid, r) && b.materials.back().store.row(field::fraction, r)[i] > 0) {
+  if (hole >= 0 && in_section<Dim>(b.grid, r, layer) && b.materials.back().store.row(field::fraction, r)[i] > 0) {
     return -1;
   }
   int best = -1;
@@ -125,7 +125,8 @@ io::GridDump dump_block(const Block<Dim>& b, remap::NormalMethod normal, const s
       dump.material_names.push_back(slot.material.name);
     }
   }
-  out.cells("material", [&](int r, int i) { return drawn_material(b, r, i); });
+  dump.section_layer = section_layer(b);
+  out.cells("material", [&](int r, int i) { return drawn_material(b, dump.section_layer, r, i); });
   out.cells("pressure", [&](int r, int i) {
     return b.owner_row(r)[i] == b.void_index() && b.void_index() >= 0 ? 0.0 : b.pressure.row(r)[i] + b.reference_pressure;
   });
