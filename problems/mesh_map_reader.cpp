@@ -30,17 +30,6 @@ bool has_outer_radius(MapKind kind) {
   return kind == MapKind::disc || kind == MapKind::ball_section || kind == MapKind::rod || kind == MapKind::ball;
 }
 
-/// The axis of a mesh map that is a radius or an angle, or -1.
-int axis_of(const MeshMap& map, Dimension dimension, int dim) {
-  for (int axis = 0; axis < dim && map.kind != MapKind::rectilinear; ++axis) {
-    const bool z = axis == 2;
-    if (!z && mesh_axis_dimension(map, axis) == dimension) {
-      return axis;
-    }
-  }
-  return -1;
-}
-
 void read_outer_radius(Deck& deck, DeckNode& mesh, const std::string& name, MeshMap& map) {
   DeckNode* node = mesh.find("outer_radius");
   if (!has_outer_radius(map.kind)) {
@@ -75,34 +64,42 @@ DeckNode& place_of(DeckNode& axis, const char* key) {
   return node != nullptr ? *node : axis;
 }
 
-void check_radius(Deck& deck, DeckNode& axis, const std::vector<double>& lines) {
+bool check_radius(Deck& deck, DeckNode& axis, const std::vector<double>& lines) {
   if (!(lines.front() > 0)) {
     deck.fail(place_of(axis, "from"), "cells at the centre would have no inner side",
               "above 0: a hole of a small radius; or map = \"disc\", \"rod\" or \"ball\", which have cells at the centre");
+    return false;
   }
+  return true;
 }
 
-void check_angles(Deck& deck, DeckNode& axis, const std::vector<double>& lines, MapKind kind) {
+bool check_angles(Deck& deck, DeckNode& axis, const std::vector<double>& lines, MapKind kind) {
   constexpr double pi = std::numbers::pi, slack = 1e-12, deg = 180 / pi;
   if (kind == MapKind::spherical && (lines.front() < -slack || lines.back() > pi + slack)) {
     deck.fail(place_of(axis, lines.front() < -slack ? "from" : "to"), "an angle off the half plane r >= 0", "from 0 to 180 deg, taken from the axis");
-  } else if (kind != MapKind::spherical && lines.back() - lines.front() > 2 * pi - slack) {
+    return false;
+  }
+  if (kind != MapKind::spherical && lines.back() - lines.front() > 2 * pi - slack) {
     deck.fail(place_of(axis, "to"), fmt::format("the sector spans {:g} deg and meets itself", (lines.back() - lines.front()) * deg),
               "less than 360 deg: a quarter or a half, symmetric; or map = \"disc\" or \"rod\"");
+    return false;
   }
+  return true;
 }
 
-void check_square(Deck& deck, DeckNode& axis, const std::vector<double>& lines, bool radial) {
+bool check_square(Deck& deck, DeckNode& axis, const std::vector<double>& lines, bool radial) {
   const auto known = [](double x) { return x == -1 || x == 0 || x == 1; };
   if (!known(lines.front()) || !known(lines.back()) || (radial && lines.front() != 0)) {
     deck.fail(place_of(axis, known(lines.front()) && (!radial || lines.front() == 0) ? "to" : "from"),
               "the curved edge is at -1 and 1, the planes between halves at 0", radial ? "from 0 to 1" : "from -1 or 0 to 0 or 1");
+    return false;
   }
+  return true;
 }
 
 } // namespace
 
-void read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene) {
+bool read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene) {
   DeckNode* node = mesh.find("map");
   std::vector<std::string> names = {"rectilinear"};
   for (const NamedMap& m : maps) {
@@ -117,14 +114,14 @@ void read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene) {
         deck.fail_key(*extra, "only with a `map`");
       }
     }
-    return;
+    return true;
   }
   const auto* found = std::find_if(std::begin(maps), std::end(maps), [&](const NamedMap& m) {
     return node->kind == DeckNode::Kind::text && node->text == m.name && m.geometry == scene.geometry;
   });
   if (found == std::end(maps)) {
     deck.fail(*node, fmt::format("{} is no map of {} scenes", describe(*node), name_of(scene.geometry)), one_of(names));
-    return;
+    return false;
   }
   scene.map.kind = found->kind;
   if (scene.motion.policy == MotionPolicy::follow) {
@@ -132,23 +129,20 @@ void read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene) {
   }
   read_outer_radius(deck, mesh, found->name, scene.map);
   read_centre(deck, mesh, scene.geometry, scene.map);
+  return true;
 }
 
-void check_mapped_axis(Deck& deck, DeckNode& node, const SceneSpec& scene, int axis) {
+bool check_mapped_axis(Deck& deck, DeckNode& node, const SceneSpec& scene, int axis) {
   const std::vector<double>& lines = scene.mesh_lines[static_cast<std::size_t>(axis)];
-  if (!scene.map.curved() || lines.empty() || node.bad) {
-    return;
+  const Dimension dimension = mesh_axis_dimension(scene.map, axis);
+  const bool along_z = axis == 2 && scene.map.kind != MapKind::ball;
+  if (!scene.map.curved() || lines.empty() || along_z) {
+    return true;
   }
-  const int dim = dimensions(scene.geometry);
-  if (has_outer_radius(scene.map.kind)) {
-    if (mesh_axis_dimension(scene.map, axis) == Dimension::none) {
-      check_square(deck, node, lines, scene.map.kind == MapKind::ball_section && axis == 0);
-    }
-  } else if (axis == axis_of(scene.map, Dimension::length, dim)) {
-    check_radius(deck, node, lines);
-  } else if (axis == axis_of(scene.map, Dimension::angle, dim)) {
-    check_angles(deck, node, lines, scene.map.kind);
+  if (dimension == Dimension::none) {
+    return check_square(deck, node, lines, scene.map.kind == MapKind::ball_section && axis == 0);
   }
+  return dimension == Dimension::angle ? check_angles(deck, node, lines, scene.map.kind) : check_radius(deck, node, lines);
 }
 
 MappedSide mapped_side(const SceneSpec& scene, int axis, int side) {

@@ -6,11 +6,11 @@
 
 namespace ballast {
 
-/// `map`, `outer_radius` and `centre` of [mesh]; scene.geometry and motion must be known.
-void read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene);
+/// `map`, `outer_radius` and `centre` of [mesh]; scene.geometry and motion must be known. False: no such map, its axes mean nothing.
+bool read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene);
 
-/// Errors where the lines of an axis reach to where its map has no cells.
-void check_mapped_axis(Deck& deck, DeckNode& axis_table, const SceneSpec& scene, int axis);
+/// False (and an error) where the lines of an axis reach to where its map has no cells.
+bool check_mapped_axis(Deck& deck, DeckNode& axis_table, const SceneSpec& scene, int axis);
 
 /// A side of a mapped mesh whose lines are known.
 struct MappedSide {

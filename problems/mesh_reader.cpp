@@ -315,7 +315,9 @@ void read_mesh(Deck& deck,
                MaterialBook& book,
                SceneSpec& scene) {
   const Context c{deck, book, scene};
-  read_map(deck, mesh, scene);
+  if (!read_map(deck, mesh, scene)) {
+    return;
+  }
   const std::vector<std::string> names = mesh_axis_names(scene);
   double refine = 1;
   for (auto& [name, node] : mesh.fields) {
@@ -326,7 +328,7 @@ void read_mesh(Deck& deck,
       refine = read_quantity(deck, node, Dimension::none, scene_keys::mesh().keys[0].range) ? node.number : 1;
     } else if (std::find(names.begin(), names.end(), name) == names.end()) {
       deck.fail_key(
-          node, fmt::format("no axis of {} {}", scene.map.curved() ? "this" : "a " + name_of(scene.geometry), scene.map.curved() ? "map" : "scene"), one_of(names));
+          node, scene.map.curved() ? std::string("no axis of this map") : fmt::format("no axis of a {} scene", name_of(scene.geometry)), one_of(names));
     }
   }
   double cells = 1;
@@ -348,7 +350,9 @@ void read_mesh(Deck& deck,
     const Dimension dimension = mesh_axis_dimension(scene.map, static_cast<int>(axis));
     const Section in = read_section(deck, *node, scene_keys::mesh_axis(dimension));
     scene.mesh_lines[axis] = read_lines(c, in, refine, dimension);
-    check_mapped_axis(deck, *node, scene, static_cast<int>(axis));
+    if (!check_mapped_axis(deck, *node, scene, static_cast<int>(axis))) {
+      scene.mesh_lines[axis].clear();
+    }
     const bool symmetric =
         std::find(symmetry.begin(), symmetry.end(), names[axis]) != symmetry.end();
     read_sides(c, in, axis, symmetric);

@@ -101,9 +101,10 @@ Bounds mesh_bounds(const SceneSpec& scene) {
   Bounds box;
   const auto& lines = scene.mesh_lines;
   const auto dim = static_cast<std::size_t>(dimensions(scene.geometry));
+  const bool sized = mesh_axis_dimension(scene.map, 0) != Dimension::none || scene.map.outer_radius > 0;
   for (std::size_t d = 0; d < dim; ++d) {
-    if (lines[d].empty()) {
-      return box;
+    if (lines[d].empty() || !sized) {
+      return {};
     }
     box.lo[d] = scene.map.curved() ? box.hi[d] : lines[d].front();
     box.hi[d] = scene.map.curved() ? -box.lo[d] : lines[d].back();

@@ -120,7 +120,7 @@ std::string name_of(Geometry geometry);
 std::vector<std::string> axis_names(Geometry geometry);
 /// Cells of the mesh, all axes multiplied.
 std::size_t cell_count(const SceneSpec& scene);
-/// Smallest box that holds the mesh (m).
+/// Smallest box that holds the mesh (m); all of space where the mesh is not known (its lines have errors).
 Bounds mesh_bounds(const SceneSpec& scene);
 /// Names of the mesh's own axes: axis_names, or "radius", "angle" ... of a map.
 std::vector<std::string> mesh_axis_names(const SceneSpec& scene);

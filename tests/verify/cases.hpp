@@ -23,6 +23,7 @@ void add_spall_cases(std::vector<VerifyCase>& cases);
 void add_gas_metal_cases(std::vector<VerifyCase>& cases);
 void add_eos_cases(std::vector<VerifyCase>& cases);
 void add_shell_cases(std::vector<VerifyCase>& cases);
+void add_standing_wave_cases(std::vector<VerifyCase>& cases);
 void add_spinning_disc_cases(std::vector<VerifyCase>& cases);
 
 } // namespace ballast::verify
