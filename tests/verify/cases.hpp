@@ -24,6 +24,7 @@ void add_gas_metal_cases(std::vector<VerifyCase>& cases);
 void add_eos_cases(std::vector<VerifyCase>& cases);
 void add_shell_cases(std::vector<VerifyCase>& cases);
 void add_standing_wave_cases(std::vector<VerifyCase>& cases);
+void add_round_solid_cases(std::vector<VerifyCase>& cases);
 void add_spinning_disc_cases(std::vector<VerifyCase>& cases);
 
 } // namespace ballast::verify
