@@ -34,7 +34,9 @@ template <int Dim> Freedom freedom_of(const Block<Dim>& b, const std::array<int,
       return {};
     }
     f.along[a] = hold == Hold::nothing;
-    f.component[a] = f.component[a] && hold == Hold::nothing;
+    if (hold == Hold::plane) {
+      f.component[static_cast<std::size_t>(b.boundary.normal_of(axis, index[a] == 0 ? 0 : 1))] = false;
+    }
     f.any = f.any || f.along[a];
   }
   return f;

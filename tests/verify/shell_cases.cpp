@@ -174,6 +174,10 @@ void add_shell_cases(std::vector<VerifyCase>& cases) {
                        shell_case(r, n.sphere, MotionPolicy::lagrangian, n.speeds[0], true);
                        shell_case(r, n.sphere, MotionPolicy::lagrangian, n.speeds[1], false);
                      }});
+    cases.push_back({fmt::format("{}_relax", n.name), "the same, remapped to a smoothed mesh every step", [n](VerifyReport& r) {
+                       shell_case(r, n.sphere, MotionPolicy::relax, n.speeds[0], false);
+                       shell_case(r, n.sphere, MotionPolicy::relax, n.speeds[1], false);
+                     }});
     cases.push_back({fmt::format("{}_eulerian", n.name), "the same through a polar mesh at rest", [n](VerifyReport& r) { shell_case(r, n.sphere, MotionPolicy::eulerian, n.speeds[0], false); }});
   }
 }
