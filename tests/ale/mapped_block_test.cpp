@@ -1,5 +1,7 @@
 // Laws of blocks that start on curvilinear meshes: masses at nodes, falling evenly, planes of symmetry that are no grid axis.
 #include "ale/fill.hpp"
+#include "ale/phases.hpp"
+#include "ale/relax.hpp"
 #include "ale/simulation.hpp"
 #include "core/hex_geometry.hpp"
 
@@ -233,6 +235,40 @@ TEST(MappedBlock, PlanesOfSymmetryHoldTheirOwnComponent) {
   for (const MotionPolicy motion : {MotionPolicy::lagrangian, MotionPolicy::eulerian}) {
     stays_between_planes({MapKind::polar, {0, 0, 0}, 0}, false, {uniform(0.5, 1, 6), uniform(0, right, 8), {}}, motion);
     stays_between_planes({MapKind::spherical, {0, 0, 0}, 0}, true, {uniform(0, right, 8), uniform(0.5, 1, 6), {}}, motion);
+  }
+}
+
+/// A sector whose radii shrink in proportion to how far they are from the outer one is harmonic in the radius: no node goes elsewhere.
+TEST(MappedBlock, RelaxLeavesAContractionOfASectorAlone) {
+  for (const MapKind kind : {MapKind::polar, MapKind::spherical}) {
+    const bool rz = kind == MapKind::spherical;
+    const MeshMap map{kind, {0, 0.2, 0}, 0};
+    const std::vector<double> radii = uniform(0.5, 1, 8), angles = uniform(0, right, 5);
+    Block<2> b = block_on(map, rz, rz ? std::array<std::vector<double>, 3>{angles, radii, {}} : std::array<std::vector<double>, 3>{radii, angles, {}},
+                          [](const auto&, const auto&) { return 1.0; });
+    b.motion.policy = MotionPolicy::relax;
+    b.boundary.side[rz ? 1 : 0] = {BoundarySide{BoundaryKind::free}, BoundarySide{BoundaryKind::free}};
+    start_motion(b);
+    for (int j = 0; j <= b.grid.cells[1]; ++j) {
+      const int r = b.grid.node_row(j, 0);
+      for (int i = 0; i <= b.grid.cells[0]; ++i) {
+        double &x = b.position[0].row(r)[i], &y = b.position[1].row(r)[i];
+        const double radius = std::hypot(x, y - 0.2), part = 1 - 0.4 * (1 - radius) / radius;
+        x *= part;
+        y = 0.2 + part * (y - 0.2);
+      }
+    }
+    ThreadPool pool(1);
+    relax_target(b, pool);
+    for (int j = 0; j <= b.grid.cells[1]; ++j) {
+      const int r = b.grid.node_row(j, 0);
+      for (int i = 0; i <= b.grid.cells[0]; ++i) {
+        EXPECT_NEAR(b.target[0].row(r)[i], b.position[0].row(r)[i], 1e-14);
+        EXPECT_NEAR(b.target[1].row(r)[i], b.position[1].row(r)[i], 1e-14);
+      }
+    }
+    const int first = b.grid.node_row(0, 0); // the plane that starts at angle 0
+    EXPECT_EQ(b.target[rz ? 0 : 1].row(first)[0], rz ? 0 : 0.2);
   }
 }
 
