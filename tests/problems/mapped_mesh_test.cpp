@@ -23,7 +23,7 @@ SceneSpec scene_of(const std::string& text) {
 }
 
 std::string deck(const std::string& geometry, const std::string& body, const std::string& mesh, const std::string& motion = "lagrangian") {
-  return "title = \"t\"\ngeometry = \"" + geometry + "\"\nend_time = \"1 us\"\n[[body]]\nname = \"b\"\nmaterial = \"copper_ofhc\"\n" + body +
+  return std::string("title = \"t\"\ngeometry = \"") + geometry + "\"\nend_time = \"1 us\"\n[[body]]\nname = \"b\"\nmaterial = \"copper_ofhc\"\n" + body +
          "\n[mesh]\n" + mesh + "\n[motion]\npolicy = \"" + motion + "\"\n";
 }
 
