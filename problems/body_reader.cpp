@@ -116,8 +116,8 @@ std::optional<RadialVelocity> read_radial(Context c, DeckNode& node) {
   if (in.has("axis")) {
     const std::vector<std::string> names = axis_names(c.scene.geometry);
     const auto at = std::find(names.begin(), names.end(), in.text("axis"));
-    const bool turned = c.scene.geometry == Geometry::axisymmetric && in.text("axis") != "z";
-    if (at == names.end() || turned || c.scene.geometry == Geometry::planar) {
+    const bool off_axis = c.scene.geometry == Geometry::axisymmetric && in.text("axis") != "z";
+    if (at == names.end() || off_axis || c.scene.geometry == Geometry::planar) {
       c.deck.fail(*in.node("axis"), fmt::format("no axis to take a radius from in a {} scene", name_of(c.scene.geometry)),
                   c.scene.geometry == Geometry::planar ? "leave it out" : c.dim() == 2 ? "z" : one_of(names));
       return std::nullopt;
@@ -143,8 +143,58 @@ void check_radial(Context c, const Section& in, const Body& body) {
   }
 }
 
+bool leans(const Section& in) {
+  return in.has("yaw") || in.has("obliquity") || in.has("hit_offset");
+}
+
+/// The direction of a shot, an axis; its errors are at `direction`.
+std::optional<Point> shot_direction(Context c, const Section& in) {
+  DeckNode* direction = in.node("direction");
+  return read_direction(c.deck,
+                        in.text("direction", default_direction(c.scene.geometry)),
+                        c.scene.geometry,
+                        direction != nullptr ? *direction : in.self());
+}
+
+/// `tip`, one coordinate an axis; absent: the origin.
+std::optional<Point> read_tip(Context c, const Section& in) {
+  const std::vector<double> tip = in.numbers("tip");
+  if (in.has("tip") && tip.size() != c.dim()) {
+    c.deck.fail(*in.node("tip"),
+                fmt::format("{} coordinates in a {} scene", tip.size(), name_of(c.scene.geometry)),
+                fmt::format("{}, one an axis", c.dim()));
+    return std::nullopt;
+  }
+  return point_of(tip);
+}
+
+/// A described body that leans: all bodies of one bullet turn about one point, so that is asked for.
+bool lean(Context c, const Section& in, Body& body) {
+  if (!leans(in)) {
+    return true;
+  }
+  const bool turns = in.number("yaw", 0) != 0 || in.number("obliquity", 0) != 0;
+  if (turns && c.scene.geometry == Geometry::three_d && in.self().find("tip") == nullptr) {
+    c.deck.fail({in.self().place, in.self().key + ".tip", "missing", "the point the body turns about: the bullet's tip, the same for all its bodies"});
+    return false;
+  }
+  const auto direction = shot_direction(c, in);
+  const auto tip = read_tip(c, in);
+  const auto attitude = direction && tip ? read_attitude(c.deck, in, c.scene, *direction, *tip) : std::nullopt;
+  if (!attitude) {
+    return false;
+  }
+  body.shape = placed(attitude->body, body.shape);
+  body.velocity = turned(attitude->flight, body.velocity);
+  body.aim = attitude->aim;
+  return true;
+}
+
 void read_plain(Context c, const Section& in) {
-  refuse(c, in, {"tip", "direction", "yaw", "core", "jacket"}, "belongs to library parts (`use`)");
+  refuse(c, in, {"core", "jacket"}, "belongs to library parts (`use`)");
+  if (!leans(in)) {
+    refuse(c, in, {"tip", "direction"}, "belongs to library parts (`use`), or to a body with a yaw, an obliquity or a hit_offset");
+  }
   const bool named = require(c, in, "name");
   Body body;
   body.name = in.text("name");
@@ -170,33 +220,12 @@ void read_plain(Context c, const Section& in) {
   body.material = *material;
   body.shape = std::move(*shape);
   check_radial(c, in, body);
+  if (!lean(c, in, body)) {
+    return;
+  }
   c.scene.materials = c.book.used();
   set_state(c, in, body);
   add(c, in, std::move(body));
-}
-
-/// The direction of a part: an axis, turned by the yaw towards the next axis.
-std::optional<Point> part_axis(Context c, const Section& in) {
-  DeckNode* direction = in.node("direction");
-  const auto axis = read_direction(c.deck,
-                                   in.text("direction", default_direction(c.scene.geometry)),
-                                   c.scene.geometry,
-                                   direction != nullptr ? *direction : in.self());
-  const double yaw = in.number("yaw", 0);
-  if (!axis || yaw == 0) {
-    return axis;
-  }
-  if (c.scene.geometry != Geometry::three_d) {
-    c.deck.fail(
-        *in.node("yaw"), "only a 3d scene can hold a yawed bullet", "0, or geometry = \"3d\"");
-    return std::nullopt;
-  }
-  Point turned{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    turned[k] += (*axis)[k] * std::cos(yaw);
-    turned[(k + 1) % 3] += std::abs((*axis)[k]) * std::sin(yaw);
-  }
-  return turned;
 }
 
 void read_part(Context c, const Section& in) {
@@ -205,27 +234,25 @@ void read_part(Context c, const Section& in) {
          {"material", "shape", "velocity_radial", "density", "pressure", "specific_energy"},
          "a library part brings its own (`core` and `jacket` change its materials)");
   const Part& part = *find_part(in.text("use"));
-  const std::optional<Point> axis = part_axis(c, in);
+  const std::optional<Point> axis = shot_direction(c, in);
   double speed = 0;
   if (DeckNode* velocity = in.node("velocity")) {
     read_quantity(c.deck, *velocity, Dimension::velocity);
     speed = in.number("velocity", 0);
   }
-  const std::vector<double> tip = in.numbers("tip");
-  if (in.has("tip") && tip.size() != c.dim()) {
-    c.deck.fail(*in.node("tip"),
-                fmt::format("{} coordinates in a {} scene", tip.size(), name_of(c.scene.geometry)),
-                fmt::format("{}, one an axis", c.dim()));
+  const std::optional<Point> tip = read_tip(c, in);
+  if (!axis || !tip) {
     return;
   }
-  if (c.scene.geometry == Geometry::axisymmetric && !tip.empty() && tip[0] != 0) {
+  if (c.scene.geometry == Geometry::axisymmetric && (*tip)[0] != 0) {
     c.deck.fail(in.node("tip")->items[0], "an axisymmetric bullet flies on the axis", "r = 0");
     return;
   }
-  if (!axis) {
+  const std::optional<Attitude> attitude = read_attitude(c.deck, in, c.scene, *axis, *tip);
+  if (!attitude) {
     return;
   }
-  Point origin = point_of(tip);
+  Point origin = *tip;
   Point velocity{};
   for (std::size_t k = 0; k < 3; ++k) {
     origin[k] -= part.length * (*axis)[k];
@@ -241,12 +268,14 @@ void read_part(Context c, const Section& in) {
     Body body;
     body.name = in.has("name") ? in.text("name") + "." + piece.name : piece.name;
     body.material = *material;
-    body.velocity = velocity;
+    body.velocity = turned(attitude->flight, velocity);
+    body.aim = attitude->aim;
     body.shape = Shape{Revolved{origin, *axis, piece.outline}};
     if (!piece.hollow.empty()) {
       body.shape = Shape{Combination{Combination::Kind::subtract,
                                      {body.shape, Shape{Revolved{origin, *axis, piece.hollow}}}}};
     }
+    body.shape = placed(attitude->body, body.shape);
     c.scene.materials = c.book.used();
     set_state(c, in, body);
     if (!add(c, in, std::move(body))) {

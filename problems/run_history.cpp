@@ -52,6 +52,8 @@ template <int Dim> std::vector<std::string> RunSession<Dim>::columns() const {
         c.push_back(fmt::format("{}_{} [m]", name, q));
       }
     }
+    const std::vector<std::string> lateral = lateral_.columns();
+    c.insert(c.end(), lateral.begin(), lateral.end());
   }
   if (spec_.results.target >= 0) {
     c.emplace_back("cavity_radius [m]");
@@ -99,6 +101,11 @@ template <int Dim> std::vector<double> RunSession<Dim>::values() {
       const int slot = slots_.slot[static_cast<std::size_t>(spec_.bodies[static_cast<std::size_t>(body)].material)];
       const BodyMeasure part = measure_body(b, {slot}, res.shot_axis, res.shot_direction);
       v.insert(v.end(), {part.front, part.rear, part.radius});
+    }
+    if (!lateral_.axes().empty()) {
+      const std::vector<double> lateral =
+          lateral_.add(clock_.time, measure_attitude(b, bullet_slots(), res.shot_axis, res.shot_direction, lateral_.mirrored()));
+      v.insert(v.end(), lateral.begin(), lateral.end());
     }
   }
   if (res.target >= 0) {

@@ -206,6 +206,18 @@ measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, doubl
   return m;
 }
 
+/// The cell row across axis `d` that begins at 0 or holds it: of a mesh on both sides of the shot line.
+template <int Dim> int row_at_zero(const Block<Dim>& b, int d) {
+  const int last = b.grid.cells[static_cast<std::size_t>(d)] - 1;
+  for (int q = 0; q < last; ++q) {
+    const auto x = cell_range(b, d, d == 0 ? q : 0, d == 1 ? q : 0, d == 2 ? q : 0);
+    if (x[1] > 1e-9 * (x[1] - x[0])) {
+      return q;
+    }
+  }
+  return 0;
+}
+
 template <int Dim>
 double cavity_radius(
     const Block<Dim>& b, int target, int axis, double from, double direction, double until) {
@@ -213,27 +225,32 @@ double cavity_radius(
   const TileStore& store = b.materials[static_cast<std::size_t>(target)].store;
   double largest = 0;
   const int last = g.cells[static_cast<std::size_t>(axis)];
+  if (axis == 0) {
+    return 0; // a shot along i has no rows across it here
+  }
+  const int first = row_at_zero(b, 0), across = Dim == 3 ? row_at_zero(b, axis == 1 ? 2 : 1) : 0;
   for (int q = 0; q < last; ++q) {
-    const int j = axis == 1 ? q : 0, k = axis == 2 ? q : 0;
-    if (axis == 0) {
-      return 0; // a shot along i has no rows across it here
-    }
+    const int j = axis == 1 ? q : across, k = axis == 2 ? q : (Dim == 3 ? across : 0);
     const auto x = cell_range(b, axis, 0, j, k);
     const double middle = 0.5 * (x[0] + x[1]);
     if ((middle - from) * direction < 0 || (middle - until) * direction > 0) {
       continue;
     }
     const double* f = store.row(field::fraction, g.cell_row(j, k));
-    if (*std::max_element(f, f + g.cells[0]) < 0.999) {
-      continue; // no target across here: in front of it, behind it, or gone to the mesh's edge
+    for (const int side : {1, -1}) {
+      const int begin = side > 0 ? first : first - 1, end = side > 0 ? g.cells[0] : -1;
+      bool any = false; // none: in front of the target, behind it, or it is gone to the mesh's edge
+      for (int i = begin; side * (end - i) > 0; i += side) {
+        any = any || f[i] >= 0.999;
+      }
+      double area = 0, length = 0;
+      for (int i = begin; any && side * (end - i) > 0 && f[i] < 0.999; i += side) {
+        const auto r = cell_range(b, 0, i, j, k);
+        area += (1 - f[i]) * (r[1] * r[1] - r[0] * r[0]);
+        length += (1 - f[i]) * (r[1] - r[0]);
+      }
+      largest = std::max(largest, b.axisymmetric ? std::sqrt(area) : length);
     }
-    double area = 0, length = 0;
-    for (int i = 0; i < g.cells[0] && f[i] < 0.999; ++i) {
-      const auto r = cell_range(b, 0, i, j, k);
-      area += (1 - f[i]) * (r[1] * r[1] - r[0] * r[0]);
-      length += (1 - f[i]) * (r[1] - r[0]);
-    }
-    largest = std::max(largest, b.axisymmetric ? std::sqrt(area) : length);
   }
   return largest;
 }

@@ -36,13 +36,14 @@ double seconds_since(std::chrono::steady_clock::time_point t) {
 template <int Dim>
 RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& dir, int threads, const std::string& restart, const ExactSolver& exact)
     : read_(read), spec_(read.scene), dir_(dir), scene_(build_scene<Dim>(read.scene, threads)), slots_(slot_map(read.scene)),
-      restarted_(!restart.empty()), terminal_(isatty(STDOUT_FILENO) != 0) {
+      restarted_(!restart.empty()), terminal_(isatty(STDOUT_FILENO) != 0), lateral_(read.scene) {
   clock_.end_time = spec_.end_time;
   memory_.deck_hash = deck_hash(read);
   if (restarted_) {
     read_checkpoint(restart, scene_, clock_, memory_);
     const auto& o = memory_.observed;
-    if (o.size() != 5 + 4 * spec_.gauges.size()) {
+    const std::size_t lateral_at = 5 + 4 * spec_.gauges.size();
+    if (o.size() != lateral_at + lateral_.memory().size()) {
       throw Error(restart + ": the state of a failed run, kept for inspection; restart from a checkpoint.h5 before it");
     }
     dt_min_ = o.at(0);
@@ -54,6 +55,7 @@ RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& 
       gauge_peaks_.push_back(o.at(5 + 4 * q));
       gauge_velocity_.push_back({o.at(6 + 4 * q), o.at(7 + 4 * q), o.at(8 + 4 * q)});
     }
+    lateral_.recall(std::span(o).subspan(lateral_at));
   } else {
     const Totals t = totals(scene_.blocks[0]);
     memory_.energy_start = t.internal() + t.kinetic_energy;
@@ -110,6 +112,8 @@ template <int Dim> void RunSession<Dim>::checkpoint() {
   for (std::size_t q = 0; q < spec_.gauges.size(); ++q) {
     memory.observed.insert(memory.observed.end(), {gauge_peaks_[q], gauge_velocity_[q][0], gauge_velocity_[q][1], gauge_velocity_[q][2]});
   }
+  const std::vector<double> lateral = lateral_.memory();
+  memory.observed.insert(memory.observed.end(), lateral.begin(), lateral.end());
   write_checkpoint(dir_ / "checkpoint.h5", scene_, clock_, memory);
   last_checkpoint_ = std::chrono::steady_clock::now();
 }

@@ -5,6 +5,7 @@
 #include "core/io/vtk.hpp"
 #include "problems/exact_solution.hpp"
 #include "problems/run_checkpoint.hpp"
+#include "problems/run_attitude.hpp"
 #include "problems/run_measure.hpp"
 #include "problems/scene_reader.hpp"
 
@@ -64,6 +65,7 @@ private:
   std::vector<double> gauge_peaks_;
   std::vector<std::array<double, 3>> gauge_velocity_;
   double gauge_time_ = 0;
+  LateralRecord lateral_;
   std::chrono::steady_clock::time_point start_, last_progress_, last_checkpoint_;
 };
 

@@ -71,6 +71,15 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
       j["results"]["bullet"]["depth_m"] = (m.front - res.target_face) * res.shot_direction;
     }
   }
+  for (const int axis : lateral_.axes()) {
+    const auto d = static_cast<std::size_t>(axis);
+    const LateralRecord::State& s = lateral_.state();
+    j["results"]["bullet"]["lateral"][std::string(1, "xyz"[d])] = {
+        {"deflection_m", s.deflection[d]}, {"momentum_kg_m_per_s", s.momentum[d]},
+        {"side_force_N", s.force[d]},      {"side_force_largest_N", s.largest_force[d]},
+        {"tilt_rad", s.tilt[d]},           {"yaw_rad", s.yaw[d]},
+        {"yaw_largest_rad", s.largest_yaw[d]}};
+  }
   if (res.target >= 0) {
     const auto slot = static_cast<std::size_t>(slots_.slot[static_cast<std::size_t>(res.target)]);
     j["results"]["target"] = {{"cavity_radius_largest_m", cavity_peak_},

@@ -202,7 +202,10 @@ const SectionSpec& results() {
       "Scene-specific results in summary.json.",
       {{.name = "bullet",
         .kind = texts,
-        .doc = "bodies that together are the bullet: speed, mass, extents and depth are reported"},
+        .doc = "bodies that together are the bullet: speed, mass, extents and depth are reported; in a 3d "
+               "scene also, along each axis across the shot without a plane of symmetry, centre of mass "
+               "and its deflection, momentum, side force (its rate), tilt and yaw of the axis (the principal "
+               "axis of inertia that stands apart from the other two), all of the part inside the mesh"},
        {.name = "target",
         .kind = text,
         .doc = "material whose cavity, energy gain and pressure are reported"}}};
@@ -227,6 +230,8 @@ std::string reference() {
                               &cylinder(2),
                               &revolved(2),
                               &half_space(2),
+                              &stl(),
+                              &rotate(3),
                               &mesh(),
                               &mesh_axis(),
                               &boundary(),

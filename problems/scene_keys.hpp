@@ -14,6 +14,8 @@ const SectionSpec& sphere(std::size_t dim);
 const SectionSpec& cylinder(std::size_t dim);
 const SectionSpec& revolved(std::size_t dim);
 const SectionSpec& half_space(std::size_t dim);
+const SectionSpec& stl();
+const SectionSpec& rotate(std::size_t dim);
 const SectionSpec& mesh();
 const SectionSpec& mesh_axis(Dimension dimension = Dimension::length);
 const SectionSpec& velocity_radial(std::size_t dim);

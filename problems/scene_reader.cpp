@@ -286,16 +286,17 @@ void find_shot(SceneSpec& scene) {
   if (r.bullet.empty()) {
     return;
   }
-  const Point& u = scene.bodies[static_cast<std::size_t>(r.bullet.front())].velocity;
+  const Body& first_body = scene.bodies[static_cast<std::size_t>(r.bullet.front())];
+  if (first_body.velocity == Point{}) {
+    return;
+  }
+  const Point& u = first_body.aim == Point{} ? first_body.velocity : first_body.aim;
   const auto axis = static_cast<std::size_t>(
       std::max_element(
           u.begin(), u.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
       u.begin());
-  if (u[axis] == 0) {
-    return;
-  }
   r.shot_axis = static_cast<int>(axis);
-  r.shot_direction = u[axis] < 0 ? -1 : 1;
+  r.shot_direction = first_body.velocity[axis] < 0 ? -1 : 1;
   for (const Body& b : scene.bodies) {
     if (b.material < 0 || b.material != r.target) {
       continue;

@@ -3,6 +3,7 @@
 
 #include "core/deck_keys.hpp"
 #include "problems/scene_spec.hpp"
+#include "problems/shape_placement.hpp"
 
 #include <map>
 #include <optional>
@@ -36,6 +37,18 @@ StartState start_state(Deck& deck, const Section& in, const Material& m, double 
 /// A `shape` table; nothing (and errors) if it is not one.
 std::optional<Shape> read_shape(Deck& deck, DeckNode& node, Geometry geometry);
 
+/// Points [z, r] of an outline, m.
+using Profile = std::vector<std::array<double, 2>>;
+
+/// `file` or `profile` of an outline; what crosses itself is refused with the place.
+std::optional<Profile> read_profile(Deck& deck, const Section& in);
+
+/// An `stl` table: a closed surface from a file; nothing (and an error) if it encloses no solid.
+std::optional<Shape> read_surface(Deck& deck, DeckNode& node, Geometry geometry);
+
+/// `rotate` and `offset` of a shape's table applied to it.
+std::optional<Shape> read_placed(Deck& deck, const Section& in, Geometry geometry, const Shape& shape);
+
 /// Shapes of the library part `name` ("bullet/m80"), tip at the origin, nose along +axis.
 struct PartBody {
   std::string name, material;
@@ -55,6 +68,18 @@ read_direction(Deck& deck, const std::string& text, Geometry geometry, DeckNode&
 
 /// "+z", planar "+x".
 std::string default_direction(Geometry geometry);
+
+/// How a bullet leans: `flight` turns its velocity, `body` its shape; `aim` is the direction of
+/// an oblique shot before either, or nothing.
+struct Attitude {
+  Point aim{};
+  Rotation flight = Placement{}.turn;
+  Placement body;
+};
+/// `yaw`, `obliquity`, `hit_offset` and `towards` of a body shot along `direction`, turned about
+/// `tip`; nothing (and an error) where the scene cannot hold a bullet that leans.
+std::optional<Attitude>
+read_attitude(Deck& deck, const Section& in, const SceneSpec& scene, const Point& direction, const Point& tip);
 
 /// Numbers of a list as a point; absent coordinates 0.
 Point point_of(const std::vector<double>& values);

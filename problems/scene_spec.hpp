@@ -45,6 +45,7 @@ struct Body {
   int material = -1; ///< index into SceneSpec::materials, -1: void (a hole)
   Shape shape;
   Point velocity{};           ///< m/s
+  Point aim{};                ///< the normal an oblique bullet is shot along; 0: its velocity
   double density = 0;         ///< kg/m3, the material's unless the deck says otherwise
   double pressure = 0;        ///< Pa, ambient unless the deck says otherwise
   double specific_energy = 0; ///< J/kg, from density and pressure unless the deck gives it

@@ -83,6 +83,18 @@ void cut(const HalfSpace& h, const Line& line, Cuts& cuts) {
   }
 }
 
+void cut(const TurnedBox& box, const Line& line, Cuts& cuts) {
+  Point d = line.p - box.centre;
+  d[line.k] = -box.centre[line.k];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double slope = box.axes[i][line.k], at = dot(d, box.axes[i]);
+    if (slope != 0 && std::isfinite(box.half[i])) {
+      cuts.add((-box.half[i] - at) / slope);
+      cuts.add((box.half[i] - at) / slope);
+    }
+  }
+}
+
 void cut(const Combination& c, const Line& line, Cuts& cuts) {
   for (const Shape& part : c.parts) {
     cut(part, line, cuts);
@@ -120,6 +132,16 @@ void jumps(const HalfSpace& h, std::size_t j, bool, std::vector<double>& out) {
   if (aligned_with(h.outward) == static_cast<int>(j)) {
     out.push_back(h.point[j]);
   }
+}
+void jumps(const TurnedBox& box, std::size_t j, bool, std::vector<double>& out) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (aligned_with(box.axes[i]) == static_cast<int>(j)) {
+      out.insert(out.end(), {box.centre[j] - box.half[i], box.centre[j] + box.half[i]});
+    }
+  }
+}
+void jumps(const Surface& s, std::size_t j, bool, std::vector<double>& out) {
+  ballast::jumps(s, j, out);
 }
 void jumps(const Combination& c, std::size_t j, bool flat, std::vector<double>& out) {
   for (const Shape& part : c.parts) {

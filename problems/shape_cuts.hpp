@@ -54,4 +54,7 @@ void cut(const Shape& shape, const Line& line, Cuts& cuts);
 /// lines are never laid across them.
 void jumps(const Shape& shape, std::size_t j, bool flat, std::vector<double>& out);
 
+void cut(const Surface& s, const Line& line, Cuts& cuts);
+void jumps(const Surface& s, std::size_t j, std::vector<double>& out);
+
 } // namespace ballast

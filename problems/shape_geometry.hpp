@@ -15,6 +15,12 @@ inline double dot(const Point& a, const Point& b) {
 inline Point operator-(const Point& a, const Point& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
+inline Point operator+(const Point& a, const Point& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 inline Point axis_of(const Cylinder& c) {
   Point a = c.to - c.from;
   const double length = std::sqrt(dot(a, a));
@@ -40,5 +46,17 @@ inline std::size_t segment_at(const Revolved& r, double z) {
 }
 
 Bounds bounds_of(const Cylinder& c);
+
+// ---- closed surfaces (problems/shape_surface.cpp) ----
+
+double distance_to(const Surface& s, const Point& p);
+bool holds(const Surface& s, const Point& p);
+const Bounds& bounds_of(const Surface& s);
+/// Any surface among the shape's parts?
+bool has_surface(const Shape& shape);
+/// The same shape for points of the box lo..hi, its surfaces cut down to the facets there.
+Shape seen_from(const Shape& shape, const Point& lo, const Point& hi);
+/// Does the surface itself come into the box?
+bool enters(const Surface& s, const Point& lo, const Point& hi);
 
 } // namespace ballast

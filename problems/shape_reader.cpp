@@ -2,17 +2,14 @@
 #include "problems/scene_keys.hpp"
 #include "problems/scene_reading.hpp"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
-#include <sstream>
 
 namespace ballast {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-using Profile = std::vector<std::array<double, 2>>;
 
 struct Context {
   Deck& deck;
@@ -86,133 +83,9 @@ std::optional<Shape> read_half_space(Context c, DeckNode& node) {
   return Shape{half};
 }
 
-/// Points of a CSV file "z_mm,r_mm"; `problem` says what is wrong with it.
-Profile profile_from_file(const std::string& path, std::string& problem) {
-  std::ifstream in(path);
-  if (!in) {
-    problem = fmt::format("cannot open {}", path);
-    return {};
-  }
-  Profile profile;
-  double scale = 0;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    if (!line.empty() && line.back() == '\r') {
-      line.pop_back();
-    }
-    if (line.empty() || line.front() == '#') {
-      continue;
-    }
-    const auto comma = line.find(',');
-    const std::string first = line.substr(0, comma);
-    const std::string second = comma == std::string::npos ? "" : line.substr(comma + 1);
-    if (scale == 0) {
-      const Quantity unit = first.starts_with("z_")
-                                ? parse_quantity("1 " + first.substr(2), Dimension::length)
-                                : Quantity{};
-      scale = unit.ok() ? unit.value : 0;
-      if (scale <= 0 || second != "r_" + first.substr(2)) {
-        problem = fmt::format("{}:{}: header \"{}\", wanted \"z_mm,r_mm\"", path, number, line);
-        return {};
-      }
-      continue;
-    }
-    const Quantity z = parse_quantity(first, Dimension::none),
-                   r = parse_quantity(second, Dimension::none);
-    if (!z.ok() || !r.ok()) {
-      problem = fmt::format("{}:{}: \"{}\" is not two numbers", path, number, line);
-      return {};
-    }
-    profile.push_back({z.value * scale, r.value * scale});
-  }
-  return profile;
-}
-
-std::string profile_problem(const Profile& profile) {
-  if (profile.size() < 2) {
-    return fmt::format("an outline of {} points", profile.size());
-  }
-  for (std::size_t i = 0; i < profile.size(); ++i) {
-    if (profile[i][1] < 0) {
-      return fmt::format("point {} has a negative radius {:g} m", i, profile[i][1]);
-    }
-    if (i > 0 && profile[i][0] < profile[i - 1][0]) {
-      return fmt::format(
-          "point {} goes back in z, {:g} m after {:g} m", i, profile[i][0], profile[i - 1][0]);
-    }
-  }
-  return profile.back()[0] > profile.front()[0] ? "" : "an outline of no length";
-}
-
-/// Puts the points into the tree in place of the file's name: the resolved deck stands alone.
-void inline_profile(DeckNode& node, const Profile& profile) {
-  std::erase_if(node.fields, [](const auto& field) { return field.first == "file"; });
-  DeckNode list;
-  list.kind = DeckNode::Kind::array;
-  for (const auto& point : profile) {
-    DeckNode pair;
-    pair.kind = DeckNode::Kind::array;
-    for (const double value : point) {
-      DeckNode number;
-      number.kind = DeckNode::Kind::number;
-      number.number = value;
-      pair.items.push_back(number);
-    }
-    list.items.push_back(std::move(pair));
-  }
-  node.fields.emplace_back("profile", std::move(list));
-}
-
-std::optional<Profile> inline_points(Context c, DeckNode& list) {
-  const std::string allowed = "a list of [z, r] pairs of lengths";
-  if (!list.is_array()) {
-    c.deck.fail(list, fmt::format("{} is not wanted here", describe(list)), allowed);
-    return std::nullopt;
-  }
-  Profile profile;
-  for (DeckNode& pair : list.items) {
-    if (!read_quantities(c.deck, pair, Dimension::length, {}, 2, 2)) {
-      return std::nullopt;
-    }
-    profile.push_back({pair.items[0].number, pair.items[1].number});
-  }
-  return profile;
-}
-
-std::optional<Profile> read_profile(Context c, const Section& in) {
-  DeckNode* file = in.node("file");
-  DeckNode* points = in.node("profile");
-  if ((file == nullptr) == (points == nullptr)) {
-    c.deck.fail({in.self().place,
-                 in.self().key,
-                 file == nullptr ? "has no outline" : "has two outlines",
-                 "either `file` or `profile`"});
-    return std::nullopt;
-  }
-  if (points != nullptr) {
-    std::optional<Profile> profile = inline_points(c, *points);
-    const std::string problem = profile ? profile_problem(*profile) : "";
-    if (!problem.empty()) {
-      c.deck.fail(*points, problem, "at least two points [z, r], z never decreasing, r at least 0");
-      return std::nullopt;
-    }
-    return profile;
-  }
-  std::string problem;
-  Profile profile = profile_from_file(c.deck.resolve_path(file->text), problem);
-  problem = problem.empty() ? profile_problem(profile) : problem;
-  if (!problem.empty()) {
-    c.deck.fail(*file, problem, "a CSV file with header z_mm,r_mm and z never decreasing");
-    return std::nullopt;
-  }
-  inline_profile(in.self(), profile);
-  return profile;
-}
-
 std::optional<Shape> read_revolved(Context c, DeckNode& node) {
   const Section in = read_section(c.deck, node, scene_keys::revolved(c.dim()));
-  std::optional<Profile> profile = read_profile(c, in);
+  std::optional<Profile> profile = read_profile(c.deck, in);
   const Point origin = point_of(in.numbers("origin"));
   DeckNode* direction = in.node("direction");
   const auto axis = read_direction(c.deck,
@@ -247,6 +120,32 @@ std::optional<Shape> read_combination(Context c, DeckNode& list, Combination::Ki
     }
   }
   return good ? std::optional<Shape>(Shape{std::move(out)}) : std::nullopt;
+}
+
+std::optional<Shape> read_form(Context c, const std::string& kind, DeckNode& inner) {
+  if (kind == "box") {
+    return read_box(c, inner);
+  }
+  if (kind == "sphere") {
+    return read_sphere(c, inner);
+  }
+  if (kind == "cylinder") {
+    return read_cylinder(c, inner);
+  }
+  if (kind == "revolved") {
+    return read_revolved(c, inner);
+  }
+  if (kind == "half_space") {
+    return read_half_space(c, inner);
+  }
+  if (kind == "stl") {
+    return read_surface(c.deck, inner, c.geometry);
+  }
+  return read_combination(c,
+                          inner,
+                          kind == "union"          ? Combination::Kind::unite
+                          : kind == "intersection" ? Combination::Kind::intersect
+                                                   : Combination::Kind::subtract);
 }
 
 } // namespace
@@ -293,38 +192,22 @@ std::optional<Shape> read_shape(Deck& deck, DeckNode& node, Geometry geometry) {
               "a table such as { sphere = { centre = [...], radius = \"3 mm\" } }");
     return std::nullopt;
   }
-  read_section(deck, node, scene_keys::shape());
-  if (node.fields.size() != 1) {
+  const Section in = read_section(deck, node, scene_keys::shape());
+  const auto is_form = [](const auto& field) { return field.first != "rotate" && field.first != "offset"; };
+  const auto forms = std::count_if(node.fields.begin(), node.fields.end(), is_form);
+  if (forms != 1) {
     deck.fail({node.place,
                node.key,
-               fmt::format("{} shapes in one table", node.fields.size()),
+               fmt::format("{} shapes in one table", forms),
                "exactly one; use union for several"});
     return std::nullopt;
   }
-  auto& [kind, inner] = node.fields.front();
+  auto& [kind, inner] = *std::find_if(node.fields.begin(), node.fields.end(), is_form);
   if (inner.bad) {
     return std::nullopt;
   }
-  if (kind == "box") {
-    return read_box(c, inner);
-  }
-  if (kind == "sphere") {
-    return read_sphere(c, inner);
-  }
-  if (kind == "cylinder") {
-    return read_cylinder(c, inner);
-  }
-  if (kind == "revolved") {
-    return read_revolved(c, inner);
-  }
-  if (kind == "half_space") {
-    return read_half_space(c, inner);
-  }
-  return read_combination(c,
-                          inner,
-                          kind == "union"          ? Combination::Kind::unite
-                          : kind == "intersection" ? Combination::Kind::intersect
-                                                   : Combination::Kind::subtract);
+  const std::optional<Shape> form = read_form(c, kind, inner);
+  return form ? read_placed(deck, in, geometry, *form) : std::nullopt;
 }
 
 } // namespace ballast

@@ -1,4 +1,5 @@
 // Distances, bounds and names of shapes.
+#include "problems/closed_surface.hpp"
 #include "problems/shape_geometry.hpp"
 
 #include <algorithm>
@@ -40,6 +41,12 @@ bool inside_outline(const Revolved& r, const std::array<double, 2>& p) {
 
 // ---- signed distance ----
 
+/// Position along the axes of a turned box, from its centre.
+Point turned(const TurnedBox& box, const Point& p) {
+  const Point d = p - box.centre;
+  return {dot(d, box.axes[0]), dot(d, box.axes[1]), dot(d, box.axes[2])};
+}
+
 double distance_to(const Box& box, const Point& p) {
   double inside = -infinity, outside2 = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -48,6 +55,11 @@ double distance_to(const Box& box, const Point& p) {
     outside2 += d > 0 ? d * d : 0.0;
   }
   return inside > 0 ? std::sqrt(outside2) : inside;
+}
+
+double distance_to(const TurnedBox& box, const Point& p) {
+  const Point& h = box.half;
+  return distance_to(Box{{-h[0], -h[1], -h[2]}, h}, turned(box, p));
 }
 
 double distance_to(const Sphere& s, const Point& p) {
@@ -156,6 +168,18 @@ Bounds bounds_of(const Revolved& r) {
   return tube(from, to, r.axis, radius);
 }
 
+Bounds bounds_of(const TurnedBox& box) {
+  Bounds b{box.centre, box.centre};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double reach = box.axes[i][k] == 0 ? 0.0 : std::abs(box.axes[i][k]) * box.half[i];
+      b.lo[k] -= reach;
+      b.hi[k] += reach;
+    }
+  }
+  return b;
+}
+
 Bounds bounds_of(const HalfSpace& h) {
   Bounds b;
   const int k = aligned_with(h.outward);
@@ -189,7 +213,7 @@ Bounds bounds_of(const Cylinder& c) {
 }
 
 Bounds bounds(const Shape& shape) {
-  return std::visit([](const auto& form) { return bounds_of(form); }, shape.form);
+  return std::visit([](const auto& form) -> Bounds { return bounds_of(form); }, shape.form);
 }
 
 bool contains(const Shape& shape, const Point& p) {
@@ -215,6 +239,13 @@ std::string describe_one(const Revolved& r) {
 }
 std::string describe_one(const HalfSpace&) {
   return "half space";
+}
+std::string describe_one(const TurnedBox&) {
+  return "box, turned";
+}
+std::string describe_one(const Surface& s) {
+  const FacetMesh& mesh = s.whole->mesh();
+  return fmt::format("surface of {} facets, {:g} m3", mesh.facets.size(), enclosed_volume(mesh));
 }
 std::string describe_one(const Combination& c) {
   const char* names[] = {"union", "intersection", "difference"};

@@ -9,11 +9,13 @@
 // otherwise it is split at aligned faces, lines are cast through each part along the axis that
 // crosses the surface most squarely, cut exactly where they meet a surface, and summed
 // (axisymmetric: weighted with r). Error below 1e-3 of a cell for shapes that are smooth on the
-// cell's scale; aligned faces are exact.
+// cell's scale; aligned faces are exact. A closed surface of facets is asked through the few facets
+// that are in the cell.
 #pragma once
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <variant>
@@ -59,6 +61,23 @@ struct HalfSpace {
   Point point, outward;
 };
 
+/// Corners centre +- half[0] axes[0] +- half[1] axes[1] +- half[2] axes[2], the axes of length 1 and
+/// square to each other: a box that has been turned. Infinite extents are allowed.
+struct TurnedBox {
+  Point centre;
+  std::array<Point, 3> axes;
+  Point half;
+};
+
+class ClosedSurface;
+struct SurfacePiece;
+
+/// A solid inside a closed surface of facets; 3D scenes only.
+struct Surface {
+  std::shared_ptr<const ClosedSurface> whole;
+  std::shared_ptr<const SurfacePiece> piece; ///< what the cell in hand sees of it, or none
+};
+
 struct Shape;
 
 /// All of (intersection), any of (union), or the first without the others (difference).
@@ -69,7 +88,7 @@ struct Combination {
 };
 
 struct Shape {
-  std::variant<Box, Sphere, Cylinder, Revolved, HalfSpace, Combination> form;
+  std::variant<Box, Sphere, Cylinder, Revolved, HalfSpace, Combination, TurnedBox, Surface> form;
 };
 
 /// Smallest known aligned box around a shape; infinite where it is.

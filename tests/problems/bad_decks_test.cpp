@@ -46,7 +46,7 @@ bool same_key(const std::string& got, const std::string& wanted) {
 }
 
 TEST(BadDecks, ThereAreEnough) {
-  EXPECT_GE(bad_decks().size(), 40u);
+  EXPECT_GE(bad_decks().size(), 60u);
 }
 
 TEST(BadDecks, AreRefusedWhereTheyAreWrong) {

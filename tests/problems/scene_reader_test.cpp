@@ -128,7 +128,7 @@ TEST(Scene, M80WeighsWhatItShould) {
 }
 
 TEST(Scene, ExamplesAreValid) {
-  for (const char* name : {"m80_tissue", "m80_tissue_3d", "taylor_copper", "taylor_copper_3d", "shell_collapse", "sod"}) {
+  for (const char* name : {"m80_tissue", "m80_tissue_3d", "m80_yaw_3d", "taylor_copper", "taylor_copper_3d", "shell_collapse", "sod"}) {
     EXPECT_NO_THROW(read_scene(source_dir + "/problems/" + name + ".toml")) << name;
   }
 }
