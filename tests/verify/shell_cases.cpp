@@ -54,7 +54,7 @@ SceneSpec shell_scene(const exact::Shell& shell, double speed, MotionPolicy moti
   s.mesh_lines[angle] = uniform(0, 0.5 * std::numbers::pi, around);
   s.boundaries[radius] = {Boundary{BoundaryKind::free}, Boundary{BoundaryKind::free}};
   s.boundaries[angle] = {Boundary{BoundaryKind::symmetry}, Boundary{BoundaryKind::symmetry}};
-  Body body{"shell", 0, Shape{Combination{Combination::Kind::subtract, {Shape{Sphere{{0, 0, 0}, shell.outer}}, Shape{Sphere{{0, 0, 0}, shell.inner}}}}}, {}, shell.density, 0, 0};
+  Body body{"shell", 0, Shape{Combination{Combination::Kind::subtract, {Shape{Sphere{{0, 0, 0}, shell.outer}}, Shape{Sphere{{0, 0, 0}, shell.inner}}}}}, {}, {}, shell.density, 0, 0};
   body.radial = RadialVelocity{-speed, shell.inner, shell.sphere ? 2.0 : 1.0};
   s.bodies.push_back(body);
   return s;

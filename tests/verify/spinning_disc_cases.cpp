@@ -55,7 +55,7 @@ Scene<2> spinning(int n) {
       s.mesh_lines[d].push_back(-1 + 2.0 * i / n);
     }
   }
-  s.bodies.push_back({"disc", 0, Shape{Sphere{{0, 0, 0}, radius}}, {}, density, 0, 0});
+  s.bodies.push_back({"disc", 0, Shape{Sphere{{0, 0, 0}, radius}}, {}, {}, density, 0, 0});
   Scene<2> scene = build_scene<2>(s, 1);
   Block<2>& b = scene.blocks[0];
   set_velocity(b, [](const std::array<double, 2>& x, std::array<double, 2>& u) {
