@@ -14,9 +14,53 @@ namespace {
 
 constexpr int cells_per_tile = 4096;
 
-/// Mass share of the lower node of cell [a, b]: integral of N_low (times r in RZ) over that of 1.
-double low_share_of(double a, double b, bool radial) {
-  return radial ? (2 * a + b) / (3 * (a + b)) : 0.5;
+/// Calls visit(row, i, {i, j, k}) for every node, ghosts included.
+template <class Visit> void for_nodes_and_ghosts(const Grid& g, Visit&& visit) {
+  for (int k = -g.ghost[2]; k < g.node_planes() - g.ghost[2]; ++k) {
+    for (int j = -g.ghost[1]; j <= g.cells[1] + g.ghost[1]; ++j) {
+      const int r = g.node_row(j, k);
+      for (int i = -g.ghost[0]; i <= g.cells[0] + g.ghost[0]; ++i) {
+        visit(r, i, std::array<int, 3>{i, j, k});
+      }
+    }
+  }
+}
+
+/// Nodes of a mapped mesh. Ghosts lie as far beyond the boundary node as their mirror images before it.
+template <int Dim> void place_mapped_nodes(Block<Dim>& b, const std::array<std::vector<double>, 3>& lines) {
+  const Grid& g = b.grid;
+  const auto at = [&](const std::array<int, 3>& index) {
+    std::array<double, 3> q = {0, 0, 0};
+    for (std::size_t d = 0; d < Dim; ++d) {
+      q[d] = lines[d][static_cast<std::size_t>(index[d])];
+    }
+    return place(b.map, q);
+  };
+  for_nodes_and_ghosts(g, [&](int r, int i, const std::array<int, 3>& index) {
+    std::array<int, 3> edge = {0, 0, 0}, image = {0, 0, 0};
+    for (std::size_t d = 0; d < Dim; ++d) {
+      edge[d] = std::clamp(index[d], 0, g.cells[d]);
+      image[d] = std::clamp(2 * edge[d] - index[d], 0, g.cells[d]);
+    }
+    const auto e = at(edge), m = edge == index ? e : at(image);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      b.target[d].row(r)[i] = edge == index ? e[d] : 2 * e[d] - m[d];
+    }
+  });
+}
+
+template <int Dim> void set_shares_and_normals(Block<Dim>& b, const std::array<std::vector<double>, 3>& lines) {
+  const Grid& g = b.grid;
+  for (int d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    const std::vector<double>& line = lines[axis];
+    b.low_share[axis].assign(static_cast<std::size_t>(g.cells[axis] + 2 * g.ghost[axis]), 0.5);
+    for (int i = 0; i < g.cells[axis]; ++i) {
+      const auto q = static_cast<std::size_t>(i);
+      b.low_share[axis][static_cast<std::size_t>(i + g.ghost[axis])] = low_share(b.map, b.axisymmetric, d, line[q], line[q + 1]);
+    }
+    b.boundary.normal[axis] = {normal_component(b.map, d, line.front()), normal_component(b.map, d, line.back())};
+  }
 }
 
 template <int Dim>
@@ -29,25 +73,11 @@ void place_nodes(Block<Dim>& b, const std::array<std::vector<double>, 3>& lines)
     // Ghost nodes mirror about the boundary node.
     return i < 0 ? 2 * at(0) - at(std::min(-i, n)) : i > n ? 2 * at(n) - at(std::max(2 * n - i, 0)) : at(i);
   };
-  for (int k = -g.ghost[2]; k < g.node_planes() - g.ghost[2]; ++k) {
-    for (int j = -g.ghost[1]; j <= g.cells[1] + g.ghost[1]; ++j) {
-      const int r = g.node_row(j, k);
-      for (int i = -g.ghost[0]; i <= g.cells[0] + g.ghost[0]; ++i) {
-        const int index[3] = {i, j, k};
-        for (int d = 0; d < Dim; ++d) {
-          b.target[static_cast<std::size_t>(d)].row(r)[i] = line(d, index[d]);
-        }
-      }
+  for_nodes_and_ghosts(g, [&](int r, int i, const std::array<int, 3>& index) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      b.target[d].row(r)[i] = line(static_cast<int>(d), index[d]);
     }
-  }
-  for (int d = 0; d < Dim; ++d) {
-    const auto axis = static_cast<std::size_t>(d);
-    b.low_share[axis].assign(static_cast<std::size_t>(g.cells[axis] + 2 * g.ghost[axis]), 0.5);
-    for (int i = 0; i < g.cells[axis]; ++i) {
-      b.low_share[axis][static_cast<std::size_t>(i + g.ghost[axis])] =
-          low_share_of(line(d, i), line(d, i + 1), b.axisymmetric && d == 0);
-    }
-  }
+  });
 }
 
 /// Mass of the nodes of row (j, k), all or that of what slides, from the rows of cells around it.
@@ -121,7 +151,8 @@ void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lin
     nodes->fill(RowField::of_nodes(g));
   }
   b.node_mass = RowField::of_nodes(g);
-  place_nodes(b, lines);
+  b.map.curved() ? place_mapped_nodes(b, lines) : place_nodes(b, lines);
+  set_shares_and_normals(b, lines);
   b.position = b.target;
   b.row_least.assign(static_cast<std::size_t>(g.cell_rows()), 0);
   for (auto* f : {&b.stable_step, &b.volume, &b.next_volume, &b.density, &b.pressure, &b.modulus, &b.wave_speed}) {

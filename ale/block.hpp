@@ -9,6 +9,7 @@
 #include "core/awake.hpp"
 #include "core/boundary.hpp"
 #include "core/grid.hpp"
+#include "core/mesh_map.hpp"
 #include "core/threads.hpp"
 #include "core/tile_store.hpp"
 #include "materials/material.hpp"
@@ -100,6 +101,7 @@ template <int Dim> struct Block {
   std::string name = "mesh";
   Grid grid;
   bool axisymmetric = false;
+  MeshMap map; ///< how the initial mesh came about
   Motion motion;
   BoundarySet boundary;
   Closure closure = Closure::pressure_relaxation;
@@ -183,8 +185,8 @@ template <int Dim> bool mostly_slides(const Block<Dim>& b, int r, int i) {
   return excess > 0;
 }
 
-/// Allocates the arrays of a block on the given mesh lines (m) and computes target mesh, volumes and
-/// mass shares. Materials must be set; their stores are made here, empty.
+/// Allocates the arrays of a block on the given mesh lines (logical coordinates of block.map: m on a rectilinear mesh) and
+/// computes target mesh, the sides' normals, volumes and mass shares. Materials must be set; their stores are made here, empty.
 template <int Dim>
 void allocate_block(Block<Dim>& block, const std::array<std::vector<double>, 3>& lines);
 

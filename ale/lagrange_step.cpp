@@ -160,7 +160,8 @@ void bound_row(Block<Dim>& b, int j, int k, double dt, double* const (&force)[Di
   const double* m = b.node_mass.row(r);
   const int index[3] = {0, j, k};
   const auto set = [&](int i, int axis, int side) {
-    const auto a = static_cast<std::size_t>(axis);
+    const int component = std::max(0, b.boundary.normal_of(axis, side)); // of a curved side: not used
+    const auto a = static_cast<std::size_t>(component);
     const BoundarySide& s = b.boundary.at(axis, side);
     double& next = b.next_velocity[a].row(r)[i];
     const double u = b.velocity[a].row(r)[i];
@@ -171,7 +172,7 @@ void bound_row(Block<Dim>& b, int j, int k, double dt, double* const (&force)[Di
     } else {
       return;
     }
-    const double reaction = m[i] * (next - u) - dt * force[axis][i];
+    const double reaction = m[i] * (next - u) - dt * force[component][i];
     effect.impulse[a] += reaction;
     effect.work += reaction * 0.5 * (u + next);
   };

@@ -9,6 +9,12 @@ namespace ballast {
 
 namespace {
 
+/// On a sector displacements are smoothed as their parts along and across the radius at home: by x and y a contraction along all radii
+/// would be no smooth one, and a few hundred remaps would press its lines together at the outer side.
+bool is_sector(const MeshMap& map) {
+  return map.kind == MapKind::polar || map.kind == MapKind::cylindrical || map.kind == MapKind::spherical;
+}
+
 /// What holds a node of the block's boundary.
 enum class Hold { nothing, plane, place };
 
@@ -34,7 +40,10 @@ template <int Dim> Freedom freedom_of(const Block<Dim>& b, const std::array<int,
       return {};
     }
     f.along[a] = hold == Hold::nothing;
-    f.component[a] = f.component[a] && hold == Hold::nothing;
+    if (hold == Hold::plane) {
+      const int normal = b.boundary.normal_of(axis, index[a] == 0 ? 0 : 1);
+      f.component[static_cast<std::size_t>(is_sector(b.map) && normal < 2 ? 1 : normal)] = false;
+    }
     f.any = f.any || f.along[a];
   }
   return f;
@@ -107,6 +116,24 @@ template <int Dim> void hold_at_home(const Block<Dim>& b, std::array<RowField, D
         double& value = u[d].row(g.node_row(j, k))[i];
         value = f.any && f.component[d] ? value : 0.0;
       }
+    }
+  });
+}
+
+/// Displacements by x and y (r and z) to parts along and across the radius (`back`: the other way).
+template <int Dim> void turn(const Block<Dim>& b, std::array<RowField, Dim>& u, bool back, ThreadPool& pool) {
+  if (!is_sector(b.map)) {
+    return;
+  }
+  for_each_node_row<Dim>(b.grid, pool, [&](int j, int k) {
+    const int r = b.grid.node_row(j, k);
+    for (int i = 0; i <= b.grid.cells[0]; ++i) {
+      const double x = b.home[0].row(r)[i] - b.map.centre[0], y = b.home[1].row(r)[i] - b.map.centre[1], radius = std::sqrt(x * x + y * y);
+      const double c = x / radius, s = back ? -y / radius : y / radius;
+      double &a = u[0].row(r)[i], &t = u[1].row(r)[i];
+      const double first = c * a + s * t;
+      t = c * t - s * a;
+      a = first;
     }
   });
 }
@@ -188,6 +215,7 @@ template <int Dim> void relax_target(Block<Dim>& b, ThreadPool& pool) {
       }
     }
   });
+  turn<Dim>(b, u, false, pool);
   if (b.motion.fixed_boundary) {
     hold_at_home<Dim>(b, u, pool);
   }
@@ -195,6 +223,7 @@ template <int Dim> void relax_target(Block<Dim>& b, ThreadPool& pool) {
     for_each_node_row<Dim>(g, pool, [&](int j, int k) { smooth_row<Dim>(b, u, next, j, k); });
     u.swap(next);
   }
+  turn<Dim>(b, u, true, pool);
   go_to<Dim>(b, u, b.target, pool);
   constexpr double worst = 0.02;
   const double enough = std::min(worst, 0.5 * mesh_quality<Dim>(g, b.position, b.home, pool));

@@ -3,7 +3,8 @@
 //
 // Sweeps of u <- (u + mean of u over the neighbours) / 2, the mean along an axis weighted by 1 / distance in the initial mesh:
 // a mesh that was stretched, sheared or turned as a whole is left alone, however graded it is. A half damps a checkerboard in
-// one sweep. Boundary nodes stay where the material took them, or at their initial places (`fixed_boundary`); along a
+// one sweep. On sectors (polar, cylindrical, spherical) u is taken along and across the radius instead: there a contraction or a turn
+// about the centre is what is left alone. Boundary nodes stay where the material took them, or at their initial places (`fixed_boundary`); along a
 // symmetry plane or a wall they slide and are smoothed within it.
 #pragma once
 

@@ -135,6 +135,7 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
       const auto a = static_cast<std::size_t>(axis), s = static_cast<std::size_t>(side);
       m.open[a][s] = b.boundary.open(axis, side);
       m.fixed[a][s] = b.boundary.fixes_normal_velocity(axis, side);
+      m.fixed_component[a][s] = b.boundary.normal_of(axis, side);
       m.fixed_velocity[a][s] = b.boundary.at(axis, side).velocity;
       const BoundaryKind kind = b.boundary.at(axis, side).kind;
       // Beyond a free side is a vacuum, or the ambient medium: more of what is at the side.

@@ -23,7 +23,7 @@ NodeGhost ghost_rule(const BoundarySet& b, int axis, int side, int component) {
   if (s.kind == BoundaryKind::inflow) {
     return {true, 0.0, s.inflow.velocity[static_cast<std::size_t>(component)]};
   }
-  const bool fixed = b.fixes_normal_velocity(axis, side), odd = fixed && axis == component;
+  const bool fixed = b.fixes_normal_velocity(axis, side), odd = fixed && b.normal_of(axis, side) == component;
   return {fixed, odd ? -1.0 : 1.0, odd ? 2 * s.velocity : 0.0};
 }
 

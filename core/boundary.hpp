@@ -25,7 +25,7 @@ struct InflowState {
 
 struct BoundarySide {
   BoundaryKind kind = BoundaryKind::symmetry;
-  double velocity = 0; ///< along the axis: of a moving wall or an inflow, m/s
+  double velocity = 0; ///< along its normal (BoundarySet::normal): of a moving wall or an inflow, m/s
   InflowState inflow{};
 };
 
@@ -35,6 +35,8 @@ inline BoundarySide inflow_side(int axis, const InflowState& state) {
 
 struct BoundarySet {
   std::array<std::array<BoundarySide, 2>, 3> side; ///< [axis][low, high]
+  /// The velocity component each side's normal points along; -1: none, it is curved. On a rectilinear mesh that of its axis.
+  std::array<std::array<int, 2>, 3> normal = {{{0, 0}, {1, 1}, {2, 2}}};
 
   bool fixes_normal_velocity(int axis, int s) const {
     const BoundaryKind k = at(axis, s).kind;
@@ -43,6 +45,7 @@ struct BoundarySet {
   const BoundarySide& at(int axis, int s) const {
     return side[static_cast<std::size_t>(axis)][static_cast<std::size_t>(s)];
   }
+  int normal_of(int axis, int s) const { return normal[static_cast<std::size_t>(axis)][static_cast<std::size_t>(s)]; }
   /// Material may cross (an eulerian block's face there is swept or fed).
   bool open(int axis, int s) const {
     const BoundaryKind k = at(axis, s).kind;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <string>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -54,13 +55,15 @@ void add_cells(vtkStructuredGrid* grid, SectionBlock& block) {
   int n[3];
   grid->GetDimensions(n);
   const bool solid = n[2] > 1;
+  const auto layers = strings(grid, "section_layer");
+  const vtkIdType layer = solid && !layers.empty() ? std::stol(layers.front()) : 0;
   const vtkIdType across = n[0], up = solid ? vtkIdType{n[0]} * n[1] : across; // node strides
   const vtkIdType cell_up = solid ? vtkIdType{n[0] - 1} * (n[1] - 1) : n[0] - 1;
   const int rows = (solid ? n[2] : n[1]) - 1;
   const CellValue pressure(grid, "pressure"), speed(grid, "speed"), material(grid, "material");
   for (int k = 0; k < rows; ++k)
     for (int i = 0; i < n[0] - 1; ++i) {
-      const vtkIdType node = k * up + i, cell = k * cell_up + i;
+      const vtkIdType node = k * up + layer * n[0] + i, cell = k * cell_up + layer * (n[0] - 1) + i;
       const std::array<vtkIdType, 4> nodes{node, node + 1, node + 1 + up, node + up};
       SectionCell& out = block.cells.emplace_back();
       for (std::size_t c = 0; c < 4; ++c) {

@@ -1,5 +1,5 @@
 // Section: what a picture shows of one dump. 2D blocks as they are (x, y) or (r, z); of 3D blocks
-// the face of the lowest j (the plane y = 0), drawn as (x, z): cell values from the layer above it,
+// the face of the lowest j (the plane y = 0), or of the dump's `section_layer`, drawn as (x, z): cell values from the layer above it,
 // interfaces where the reconstructed planes of its mixed cells meet it.
 #pragma once
 

@@ -8,6 +8,25 @@ using enum KeyKind;
 
 const std::vector<std::string> directions = {"+x", "-x", "+y", "-y", "+z", "-z"};
 
+SectionSpec radial_spec(std::size_t dim) {
+  return {"[body.velocity_radial]",
+          "Speed along the outward radius R, `speed` x (`at` / R)^`power`: `velocity_radial = { speed = \"-417.1 m/s\", at = \"80 mm\" }` is a shell whose inner "
+          "surface, at 80 mm, moves in with its volume kept everywhere.",
+          {{.name = "speed", .kind = quantity, .doc = "outward; below 0: inward", .dimension = Dimension::velocity, .required = true},
+           {.name = "at", .kind = quantity, .doc = "radius where it is that; required unless `power` is 0", .dimension = Dimension::length, .range = positive()},
+           {.name = "power",
+            .kind = quantity,
+            .doc = "default: the one that keeps volumes, 1 around an axis or in a planar scene, 2 around a point; 0: one speed; -1: every radius in proportion",
+            .range = {-4, 4}},
+           {.name = "centre",
+            .kind = quantities,
+            .doc = "point the radius is taken from; default the origin",
+            .dimension = Dimension::length,
+            .min_count = dim,
+            .max_count = dim},
+           {.name = "axis", .kind = choice, .doc = "the radius is taken from this axis through `centre` instead; axisymmetric: z", .choices = {"z", "x", "y"}}}};
+}
+
 } // namespace
 
 const SectionSpec& body() {
@@ -34,6 +53,9 @@ const SectionSpec& body() {
         .kind = special,
         .doc = "one velocity an axis: `[\"0 m/s\", \"823 m/s\"]`; for a library part one speed "
                "along its `direction`, turned by the obliquity. Default: at rest"},
+       {.name = "velocity_radial",
+        .kind = table,
+        .doc = "beside `velocity`: along the radius from a point or an axis (below); for shells that collapse or expand"},
        {.name = "density",
         .kind = quantity,
         .doc = "initial density, the material's if absent",
@@ -84,6 +106,11 @@ const SectionSpec& body() {
         .kind = text,
         .doc = "library part: jacket material instead of its own"}}};
   return spec;
+}
+
+const SectionSpec& velocity_radial(std::size_t dim) {
+  static const SectionSpec flat = radial_spec(2), solid = radial_spec(3);
+  return dim == 2 ? flat : solid;
 }
 
 } // namespace ballast::scene_keys

@@ -71,15 +71,14 @@ void set_state(Context c, const Section& in, Body& body) {
 
 /// A body outside the mesh is a mistake in one of the two.
 bool check_place(Context c, const Section& in, const Body& body) {
-  const Bounds b = bounds(body.shape);
+  const Bounds b = bounds(body.shape), mesh = mesh_bounds(c.scene);
   const std::vector<std::string> names = axis_names(c.scene.geometry);
   for (std::size_t k = 0; k < c.dim(); ++k) {
-    const auto& lines = c.scene.mesh_lines[k];
     const bool radius = c.scene.geometry == Geometry::axisymmetric && k == 0;
     if (c.scene.motion.policy == MotionPolicy::follow && !radius) {
       continue; // the mesh may come by
     }
-    if (!lines.empty() && (b.lo[k] >= lines.back() || b.hi[k] <= lines.front())) {
+    if (b.lo[k] >= mesh.hi[k] || b.hi[k] <= mesh.lo[k]) {
       c.deck.fail({in.self().place,
                    in.self().key,
                    fmt::format("body \"{}\" lies outside the mesh along {} ({:g} to {:g} m)",
@@ -87,7 +86,7 @@ bool check_place(Context c, const Section& in, const Body& body) {
                                names[k],
                                b.lo[k],
                                b.hi[k]),
-                   fmt::format("{} from {:g} to {:g} m", names[k], lines.front(), lines.back())});
+                   fmt::format("{} from {:g} to {:g} m", names[k], mesh.lo[k], mesh.hi[k])});
       return false;
     }
   }
@@ -108,6 +107,40 @@ bool add(Context c, const Section& in, Body body) {
   const bool placed = check_place(c, in, body);
   c.scene.bodies.push_back(std::move(body));
   return placed;
+}
+
+/// velocity_radial = { speed, at, centre, power, axis }.
+std::optional<RadialVelocity> read_radial(Context c, DeckNode& node) {
+  const Section in = read_section(c.deck, node, scene_keys::velocity_radial(c.dim()));
+  RadialVelocity u;
+  if (in.has("axis")) {
+    const std::vector<std::string> names = axis_names(c.scene.geometry);
+    const auto at = std::find(names.begin(), names.end(), in.text("axis"));
+    const bool off_axis = c.scene.geometry == Geometry::axisymmetric && in.text("axis") != "z";
+    if (at == names.end() || off_axis || c.scene.geometry == Geometry::planar) {
+      c.deck.fail(*in.node("axis"), fmt::format("no axis to take a radius from in a {} scene", name_of(c.scene.geometry)),
+                  c.scene.geometry == Geometry::planar ? "leave it out" : c.dim() == 2 ? "z" : one_of(names));
+      return std::nullopt;
+    }
+    u.along = static_cast<int>(at - names.begin());
+  }
+  u.speed = in.number("speed", 0);
+  u.centre = point_of(in.numbers("centre"));
+  const bool around_a_line = c.scene.geometry == Geometry::planar || u.along >= 0;
+  u.power = in.number("power", around_a_line ? 1 : 2);
+  u.at = in.number("at", 1);
+  if (u.power != 0 && in.self().find("at") == nullptr) {
+    c.deck.fail({node.place, node.key + ".at", "missing; where is the speed that?", "a radius, or power = 0: the same speed everywhere"});
+    return std::nullopt;
+  }
+  return u;
+}
+
+/// A speed that grows without bound towards the centre has no place in a body that holds it.
+void check_radial(Context c, const Section& in, const Body& body) {
+  if (body.radial && body.radial->power > 0 && contains(body.shape, body.radial->centre)) {
+    c.deck.fail(*in.node("velocity_radial"), "the body holds the centre, where this speed has no bound", "a hollow body, or a power of 0 or below");
+  }
 }
 
 bool leans(const Section& in) {
@@ -178,11 +211,15 @@ void read_plain(Context c, const Section& in) {
       body.velocity = point_of(numbers_of(*velocity));
     }
   }
+  if (DeckNode* radial = in.node("velocity_radial")) {
+    body.radial = read_radial(c, *radial);
+  }
   if (!named || !material || !shape) {
     return;
   }
   body.material = *material;
   body.shape = std::move(*shape);
+  check_radial(c, in, body);
   if (!lean(c, in, body)) {
     return;
   }
@@ -194,7 +231,7 @@ void read_plain(Context c, const Section& in) {
 void read_part(Context c, const Section& in) {
   refuse(c,
          in,
-         {"material", "shape", "density", "pressure", "specific_energy"},
+         {"material", "shape", "velocity_radial", "density", "pressure", "specific_energy"},
          "a library part brings its own (`core` and `jacket` change its materials)");
   const Part& part = *find_part(in.text("use"));
   const std::optional<Point> axis = shot_direction(c, in);

@@ -53,23 +53,32 @@ template <int Dim> struct NodeMomentum {
 };
 
 template <int Dim>
-void add_momentum(const Block<Dim>& b, int i, int j, int k, double mass, const Point& velocity, NodeMomentum<Dim>& sum) {
+void add_momentum(const Block<Dim>& b, int i, int j, int k, double mass, const Body* body, NodeMomentum<Dim>& sum) {
   for (int corner = 0; corner < (1 << Dim); ++corner) {
     const double share = mass * corner_share(b, corner, i, j, k);
     const int r = b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1)), n = i + (corner & 1);
     sum.mass.row(r)[n] += share;
+    Point velocity = body != nullptr ? body->velocity : Point{};
+    if (body != nullptr && body->radial) {
+      Point x{};
+      for (std::size_t d = 0; d < Dim; ++d) {
+        x[d] = b.position[d].row(r)[n];
+      }
+      velocity = body->velocity_at(x);
+    }
     for (std::size_t d = 0; d < Dim; ++d) {
       sum.momentum[d].row(r)[n] += share * velocity[d];
     }
   }
 }
 
-/// What the cell lo..hi holds at the start, by material slot; `each`(material, fraction, density, velocity) hears of every body's part.
+/// What the cell lo..hi (logical coordinates) holds at the start, by material slot; `each`(material, fraction, density, body) hears of
+/// every part, of the background's without a body.
 template <class Each>
 void initial_parts(const SceneSpec& spec, const SlotMap& slots, const Point& lo, const Point& hi, std::vector<double>& shares, std::vector<CellPart>& parts, Each&& each) {
   body_fractions(spec, lo, hi, shares);
   double left = 1;
-  const auto add = [&](int material, double f, double density, double e, const Point& u) {
+  const auto add = [&](int material, double f, double density, double e, const Body* body) {
     CellPart& p = parts[static_cast<std::size_t>(material < 0 ? static_cast<int>(parts.size()) - 1 : slots.slot[static_cast<std::size_t>(material)])];
     const double mass = p.fraction * p.density + f * density;
     p.specific_energy = mass > 0 ? (p.fraction * p.density * p.specific_energy + f * density * e) / mass : 0;
@@ -79,21 +88,21 @@ void initial_parts(const SceneSpec& spec, const SlotMap& slots, const Point& lo,
       p.density = density;
       p.specific_energy = e;
     }
-    each(material, f, density, u);
+    each(material, f, density, body);
     left -= f;
   };
   for (std::size_t q = 0; q < spec.bodies.size(); ++q) {
     if (shares[q] > 0) {
       const Body& body = spec.bodies[q];
-      add(body.material, shares[q], body.density, body.specific_energy, body.velocity);
+      add(body.material, shares[q], body.density, body.specific_energy, &body);
     }
   }
   if (left > 1e-12) {
     if (spec.background < 0) {
-      add(-1, left, 0, 0, {});
+      add(-1, left, 0, 0, nullptr);
     } else {
       const Material& m = spec.materials[static_cast<std::size_t>(spec.background)];
-      add(spec.background, left, m.density, m.specific_energy, {});
+      add(spec.background, left, m.density, m.specific_energy, nullptr);
     }
   }
   for (std::size_t m = 0; m < parts.size(); ++m) {
@@ -105,11 +114,11 @@ void initial_parts(const SceneSpec& spec, const SlotMap& slots, const Point& lo,
 /// What a mesh that follows meets on its way: the initial state of what does not move.
 template <int Dim> void set_outside(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
   SceneSpec resting = spec;
-  std::erase_if(resting.bodies, [](const Body& body) { return body.velocity != Point{}; });
+  std::erase_if(resting.bodies, [](const Body& body) { return body.moves(); });
   b.outside = [resting = std::move(resting), slots, count = b.materials.size()](const Point& lo, const Point& hi, std::vector<remap::Outside>& out) {
     std::vector<double> shares(resting.bodies.size());
     std::vector<CellPart> parts(count);
-    initial_parts(resting, slots, lo, hi, shares, parts, [](int, double, double, const Point&) {});
+    initial_parts(resting, slots, lo, hi, shares, parts, [](int, double, double, const Body*) {});
     for (const CellPart& p : parts) {
       if (p.fraction > 0) {
         out.push_back({p.material, p.fraction, p.density, p.specific_energy});
@@ -136,10 +145,10 @@ void fill_block(const SceneSpec& spec, const SlotMap& slots, Block<Dim>& b) {
     }
     const double volume = b.volume.row(b.grid.cell_row(j, k))[i];
     std::vector<CellPart> parts(b.materials.size());
-    initial_parts(spec, slots, lo, hi, shares, parts, [&](int material, double f, double density, const Point& u) {
+    initial_parts(spec, slots, lo, hi, shares, parts, [&](int material, double f, double density, const Body* body) {
       if (material >= 0) {
         const bool slides = b.materials[static_cast<std::size_t>(slots.slot[static_cast<std::size_t>(material)])].slides;
-        add_momentum(b, i, j, k, f * density * volume, u, slides ? sliding : nodes);
+        add_momentum(b, i, j, k, f * density * volume, body, slides ? sliding : nodes);
       }
     });
     fill_cell<Dim>(b, i, j, k, parts);
@@ -166,11 +175,11 @@ template <int Dim> void apply_boundary_velocity(Block<Dim>& b) {
       for (int axis = 0; axis < Dim; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         const int r = g.node_row(j, k);
-        const bool slides = !b.sliding.jump[a].data().empty();
-        const auto hold = [&](int first, int last, double u) {
-          std::fill(b.velocity[a].row(r) + first, b.velocity[a].row(r) + last + 1, u);
-          if (slides) {
-            std::fill(b.sliding.jump[a].row(r) + first, b.sliding.jump[a].row(r) + last + 1, 0.0);
+        const auto hold = [&](int side, int first, int last) {
+          const auto d = static_cast<std::size_t>(b.boundary.normal_of(axis, side));
+          std::fill(b.velocity[d].row(r) + first, b.velocity[d].row(r) + last + 1, b.boundary.at(axis, side).velocity);
+          if (!b.sliding.jump[d].data().empty()) {
+            std::fill(b.sliding.jump[d].row(r) + first, b.sliding.jump[d].row(r) + last + 1, 0.0);
           }
         };
         for (int side = 0; side < 2; ++side) {
@@ -178,11 +187,10 @@ template <int Dim> void apply_boundary_velocity(Block<Dim>& b) {
             continue;
           }
           const int last = g.cells[a];
-          const double u = b.boundary.at(axis, side).velocity;
           if (axis == 0) {
-            hold(side == 0 ? 0 : last, side == 0 ? 0 : last, u);
+            hold(side, side == 0 ? 0 : last, side == 0 ? 0 : last);
           } else if (index[axis] == (side == 0 ? 0 : last)) {
-            hold(0, g.cells[0], u);
+            hold(side, 0, g.cells[0]);
           }
         }
       }
@@ -230,6 +238,7 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   const SlotMap slots = slot_map(spec);
   Block<Dim> b;
   b.axisymmetric = spec.geometry == Geometry::axisymmetric;
+  b.map = spec.map;
   b.motion = spec.motion;
   for (int& leader : b.motion.leaders) {
     leader = slots.slot[static_cast<std::size_t>(leader)];

@@ -13,12 +13,35 @@ const SectionSpec& mesh() {
         .kind = quantity,
         .doc = "every cell size is divided by it, every count of cells times it: for studies of the resolution",
         .range = {0.01, 100},
-        .fallback = "1"}}};
+        .fallback = "1"},
+       {.name = "map",
+        .kind = choice,
+        .doc = "a curvilinear starting mesh and its axes. planar: `polar` (`radius`, `angle` from the x axis), `disc` (`u`, `v`); axisymmetric: "
+               "`spherical` (`angle` from the axis at z > 0, `radius`), `ball` (`u` along r, `v` along z); 3d: `cylindrical` (`radius`, `angle`, `z`), `rod` (`u`, `v`, "
+               "`z`), `ball` (`u`, `v`, `w`). Angles in deg or rad; a radius starts above 0. `u`, `v`, `w` go from -1 to 1 (edge to edge) or from or to 0 (a plane of "
+               "symmetry through the centre), whatever the size; no cell of theirs is degenerate (docs/numerics.md 1). A side is symmetric where it is a plane "
+               "through the centre, at angles that are multiples of 90 deg or u, v, w = 0, unless it says otherwise; curved and slanted sides are `free`; "
+               "`symmetry` and `wall` need a plane across a coordinate axis. Not with `follow`, `numerics.sliding` or `results.target`",
+        .fallback = "rectilinear",
+        .choices = {"rectilinear", "polar", "disc", "spherical", "cylindrical", "rod", "ball"}},
+       {.name = "outer_radius",
+        .kind = quantity,
+        .doc = "disc, rod, ball: radius of the curved edge; required there",
+        .dimension = Dimension::length,
+        .range = positive()},
+       {.name = "centre",
+        .kind = quantities,
+        .doc = "of a map; one coordinate an axis, of cylindrical and rod x and y; default the origin",
+        .dimension = Dimension::length,
+        .min_count = 2,
+        .max_count = 3}}};
   return spec;
 }
 
-const SectionSpec& mesh_axis() {
-  static const SectionSpec spec = {
+namespace {
+
+SectionSpec axis_spec(Dimension dimension) {
+  return {
       "[mesh.AXIS]",
       "Lines along one axis: `r = { from = \"0 mm\", to = [\"8 mm\", \"60 mm\"], size = [\"0.25 "
       "mm\", \"2 mm\"] }` is "
@@ -27,8 +50,8 @@ const SectionSpec& mesh_axis() {
       "where they do not divide a stretch.",
       {{.name = "from",
         .kind = quantity,
-        .doc = "low end",
-        .dimension = Dimension::length,
+        .doc = "low end; a length, an angle or a plain number, as its axis wants",
+        .dimension = dimension,
         .required = true},
        {.name = "to",
         .kind = special,
@@ -44,9 +67,15 @@ const SectionSpec& mesh_axis() {
         .range = {.lo = 1}},
        {.name = "lower",
         .kind = special,
-        .doc = "boundary at the low end; default `free`, at r = 0 `symmetry`"},
-       {.name = "upper", .kind = special, .doc = "boundary at the high end; default `free`"}}};
-  return spec;
+        .doc = "boundary at the low end; default `free`, at r = 0 `symmetry`, of a map as `map` says"},
+       {.name = "upper", .kind = special, .doc = "boundary at the high end; default `free`, of a map as `map` says"}}};
+}
+
+} // namespace
+
+const SectionSpec& mesh_axis(Dimension dimension) {
+  static const SectionSpec length = axis_spec(Dimension::length), angle = axis_spec(Dimension::angle), number = axis_spec(Dimension::none);
+  return dimension == Dimension::length ? length : dimension == Dimension::angle ? angle : number;
 }
 
 const SectionSpec& boundary() {
@@ -63,7 +92,7 @@ const SectionSpec& boundary() {
         .choices = {"symmetry", "free", "wall", "inflow", "outflow", "absorbing"}},
        {.name = "velocity",
         .kind = special,
-        .doc = "wall: one velocity along the axis; inflow: one velocity an axis, into the mesh"},
+        .doc = "wall: one velocity along the axis (of a map: along the coordinate it is normal to); inflow: one velocity an axis, into the mesh"},
        {.name = "material", .kind = text, .doc = "inflow: what comes in"},
        {.name = "density",
         .kind = quantity,

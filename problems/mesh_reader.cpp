@@ -1,11 +1,13 @@
 // [mesh]: graded lines and boundaries of each axis.
 #include "problems/mesh_lines.hpp"
+#include "problems/mesh_map_reader.hpp"
 #include "problems/scene_keys.hpp"
 #include "problems/scene_reading.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace ballast {
 namespace {
@@ -20,15 +22,23 @@ struct Context {
   std::size_t dim() const { return static_cast<std::size_t>(dimensions(scene.geometry)); }
 };
 
-/// One length or a list of them, as a list.
-std::optional<std::vector<double>> lengths(Context c, DeckNode& node, const KeyRange& range) {
+/// "3 m", "90 deg", "1": a coordinate along an axis, for messages.
+std::string spoken(double value, Dimension dimension) {
+  if (dimension == Dimension::angle) {
+    return fmt::format("{:g} deg", value * 180 / std::numbers::pi);
+  }
+  return fmt::format("{:g}{}", value, dimension == Dimension::none ? "" : " m");
+}
+
+/// One quantity or a list of them, as a list.
+std::optional<std::vector<double>> places_of(Context c, DeckNode& node, Dimension dimension, const KeyRange& range) {
   if (node.is_array()) {
-    if (!read_quantities(c.deck, node, Dimension::length, range, 1)) {
+    if (!read_quantities(c.deck, node, dimension, range, 1)) {
       return std::nullopt;
     }
     return numbers_of(node);
   }
-  if (!read_quantity(c.deck, node, Dimension::length, range)) {
+  if (!read_quantity(c.deck, node, dimension, range)) {
     return std::nullopt;
   }
   return std::vector<double>{node.number};
@@ -39,12 +49,12 @@ DeckNode& entry(DeckNode& node, std::size_t i) {
   return node.is_array() ? node.items[i] : node;
 }
 
-bool check_rising(Context c, double from, DeckNode& to, const std::vector<double>& values) {
+bool check_rising(Context c, double from, DeckNode& to, const std::vector<double>& values, Dimension dimension) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double before = i == 0 ? from : values[i - 1];
     if (values[i] <= before) {
       c.deck.fail(entry(to, i),
-                  fmt::format("{:g} m is not above {:g} m", values[i], before),
+                  fmt::format("{} is not above {}", spoken(values[i], dimension), spoken(before, dimension)),
                   "places that rise from `from`");
       return false;
     }
@@ -52,7 +62,7 @@ bool check_rising(Context c, double from, DeckNode& to, const std::vector<double
   return true;
 }
 
-bool check_sizes(Context c, const AxisPlan& plan, DeckNode& size) {
+bool check_sizes(Context c, const AxisPlan& plan, DeckNode& size, Dimension dimension) {
   const std::size_t n = plan.to.size();
   if (plan.size.size() != n && plan.size.size() != n + 1) {
     c.deck.fail(size,
@@ -65,7 +75,7 @@ bool check_sizes(Context c, const AxisPlan& plan, DeckNode& size) {
     const double stretch = plan.to[i] - (i == 0 ? plan.from : plan.to[i - 1]);
     if (plan.size[at] > stretch * (1 + 1e-9)) {
       c.deck.fail(entry(size, at),
-                  fmt::format("{:g} m is more than its stretch of {:g} m", plan.size[at], stretch),
+                  fmt::format("{} is more than its stretch of {}", spoken(plan.size[at], dimension), spoken(stretch, dimension)),
                   "a size that fits its stretch at least once");
       return false;
     }
@@ -94,7 +104,7 @@ std::vector<double> equal_lines(double from, double to, int cells) {
   return nodes;
 }
 
-std::vector<double> read_lines(Context c, const Section& in, double refine) {
+std::vector<double> read_lines(Context c, const Section& in, double refine, Dimension dimension) {
   DeckNode* to = in.node("to");
   DeckNode* size = in.node("size");
   DeckNode& self = in.self();
@@ -113,9 +123,9 @@ std::vector<double> read_lines(Context c, const Section& in, double refine) {
     return {};
   }
   AxisPlan plan{in.number("from"), {}, {}};
-  const auto places = lengths(c, *to, {});
-  const auto sizes = size != nullptr ? lengths(c, *size, positive()) : std::vector<double>{};
-  if (!places || !sizes || !in.has("from") || !check_rising(c, plan.from, *to, *places)) {
+  const auto places = places_of(c, *to, dimension, {});
+  const auto sizes = size != nullptr ? places_of(c, *size, dimension, positive()) : std::vector<double>{};
+  if (!places || !sizes || !in.has("from") || !check_rising(c, plan.from, *to, *places, dimension)) {
     return {};
   }
   plan.to = *places;
@@ -123,7 +133,7 @@ std::vector<double> read_lines(Context c, const Section& in, double refine) {
     plan.size.push_back(s / refine);
   }
   if (size != nullptr) {
-    return check_sizes(c, plan, *size) ? mesh_lines(plan) : std::vector<double>{};
+    return check_sizes(c, plan, *size, dimension) ? mesh_lines(plan) : std::vector<double>{};
   }
   if (!in.has("cells")) {
     return {};
@@ -223,7 +233,12 @@ Boundary read_boundary(Context c, DeckNode& node, std::size_t axis, std::size_t 
   if (!in.has("type")) {
     return side;
   }
-  side.kind = static_cast<BoundaryKind>(in.choice("type"));
+  const auto kind = static_cast<BoundaryKind>(in.choice("type"));
+  if (c.scene.map.curved() && !check_mapped_side(c.deck, *in.node("type"), c.scene, static_cast<int>(axis), static_cast<int>(s), kind)) {
+    node.bad = true;
+    return side;
+  }
+  side.kind = kind;
   if (side.kind == BoundaryKind::inflow) {
     read_inflow(c, in, axis, s, side);
     return side;
@@ -247,7 +262,28 @@ void add_text(DeckNode& table, const std::string& key, const std::string& text) 
   table.fields.emplace_back(key, std::move(node));
 }
 
+void read_mapped_sides(Context c, const Section& in, std::size_t axis) {
+  DeckNode& table = in.self();
+  const char* const keys[2] = {"lower", "upper"};
+  for (std::size_t s = 0; s < 2 && !c.scene.mesh_lines[axis].empty(); ++s) {
+    const MappedSide side = mapped_side(c.scene, static_cast<int>(axis), static_cast<int>(s));
+    if (table.find(keys[s]) == nullptr) {
+      add_text(table, keys[s], side.cuts_the_body ? "symmetry" : "free");
+    }
+    DeckNode& node = *table.find(keys[s]);
+    Boundary& b = c.scene.boundaries[axis][s];
+    b = read_boundary(c, node, axis, s);
+    if (side.axis && !node.bad && b.kind != BoundaryKind::symmetry) {
+      c.deck.fail(node, "r = 0 is the axis", "symmetry, or leave it out");
+    }
+  }
+}
+
 void read_sides(Context c, const Section& in, std::size_t axis, bool symmetric) {
+  if (c.scene.map.curved()) {
+    read_mapped_sides(c, in, axis);
+    return;
+  }
   DeckNode& table = in.self();
   const bool on_axis = c.scene.geometry == Geometry::axisymmetric && axis == 0;
   const bool starts_at_axis = on_axis && in.number("from", 1) == 0;
@@ -279,14 +315,20 @@ void read_mesh(Deck& deck,
                MaterialBook& book,
                SceneSpec& scene) {
   const Context c{deck, book, scene};
-  const std::vector<std::string> names = axis_names(scene.geometry);
+  if (!read_map(deck, mesh, scene)) {
+    return;
+  }
+  const std::vector<std::string> names = mesh_axis_names(scene);
   double refine = 1;
   for (auto& [name, node] : mesh.fields) {
+    if (name == "map" || name == "outer_radius" || name == "centre") {
+      continue; // read_map
+    }
     if (name == "refine") {
       refine = read_quantity(deck, node, Dimension::none, scene_keys::mesh().keys[0].range) ? node.number : 1;
     } else if (std::find(names.begin(), names.end(), name) == names.end()) {
       deck.fail_key(
-          node, fmt::format("no axis of a {} scene", name_of(scene.geometry)), one_of(names));
+          node, scene.map.curved() ? std::string("no axis of this map") : fmt::format("no axis of a {} scene", name_of(scene.geometry)), one_of(names));
     }
   }
   double cells = 1;
@@ -305,8 +347,12 @@ void read_mesh(Deck& deck,
                 "a table { from, to, size }");
       continue;
     }
-    const Section in = read_section(deck, *node, scene_keys::mesh_axis());
-    scene.mesh_lines[axis] = read_lines(c, in, refine);
+    const Dimension dimension = mesh_axis_dimension(scene.map, static_cast<int>(axis));
+    const Section in = read_section(deck, *node, scene_keys::mesh_axis(dimension));
+    scene.mesh_lines[axis] = read_lines(c, in, refine, dimension);
+    if (!check_mapped_axis(deck, *node, scene, static_cast<int>(axis))) {
+      scene.mesh_lines[axis].clear();
+    }
     const bool symmetric =
         std::find(symmetry.begin(), symmetry.end(), names[axis]) != symmetry.end();
     read_sides(c, in, axis, symmetric);

@@ -67,12 +67,12 @@ private:
 };
 
 /// -1: void, or mixed with void where polygons cover the rest.
-template <int Dim> int drawn_material(const Block<Dim>& b, int r, int i) {
+template <int Dim> int drawn_material(const Block<Dim>& b, int layer, int r, int i) {
   const int owner = b.owner_row(r)[i], hole = b.void_index();
   if (owner >= 0) {
     return owner == hole ? -1 : owner;
   }
-  if (hole >= 0 && in_section<Dim>(b.grid, r) && b.materials.back().store.row(field::fraction, r)[i] > 0) {
+  if (hole >= 0 && in_section<Dim>(b.grid, r, layer) && b.materials.back().store.row(field::fraction, r)[i] > 0) {
     return -1;
   }
   int best = -1;
@@ -87,13 +87,21 @@ template <int Dim> int drawn_material(const Block<Dim>& b, int r, int i) {
   return best;
 }
 
-/// Axes at whose 0 the block begins and is mirrored.
+/// Coordinates at whose 0 the block is mirrored: where a side symmetric in one lies there.
 std::vector<std::string> symmetry_of(const Block<3>& b) {
   std::vector<std::string> axes;
-  for (int d = 0; d < 3; ++d) {
-    const double begin = b.position[static_cast<std::size_t>(d)].row(b.grid.node_row(0, 0))[0];
-    if (b.boundary.at(d, 0).kind == BoundaryKind::symmetry && begin == 0) {
-      axes.push_back(std::string(1, "xyz"[d]));
+  for (int component = 0; component < 3; ++component) {
+    bool mirrored = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int side = 0; side < (b.map.curved() ? 2 : 1); ++side) {
+        std::array<int, 3> end = {0, 0, 0};
+        end[static_cast<std::size_t>(axis)] = side == 0 ? 0 : b.grid.cells[static_cast<std::size_t>(axis)];
+        const double at = b.position[static_cast<std::size_t>(component)].row(b.grid.node_row(end[1], end[2]))[end[0]];
+        mirrored = mirrored || (b.boundary.normal_of(axis, side) == component && b.boundary.at(axis, side).kind == BoundaryKind::symmetry && at == 0);
+      }
+    }
+    if (mirrored) {
+      axes.push_back(std::string(1, "xyz"[component]));
     }
   }
   return axes;
@@ -117,7 +125,8 @@ io::GridDump dump_block(const Block<Dim>& b, remap::NormalMethod normal, const s
       dump.material_names.push_back(slot.material.name);
     }
   }
-  out.cells("material", [&](int r, int i) { return drawn_material(b, r, i); });
+  dump.section_layer = section_layer(b);
+  out.cells("material", [&](int r, int i) { return drawn_material(b, dump.section_layer, r, i); });
   out.cells("pressure", [&](int r, int i) {
     return b.owner_row(r)[i] == b.void_index() && b.void_index() >= 0 ? 0.0 : b.pressure.row(r)[i] + b.reference_pressure;
   });

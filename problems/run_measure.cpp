@@ -2,6 +2,8 @@
 
 #include "ale/fill.hpp"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -101,6 +103,55 @@ template <int Dim, class Choice, class Body> void for_cells(const Block<Dim>& b,
   }
 }
 
+/// Lowest and highest node of a cell along a coordinate.
+template <int Dim> std::array<double, 2> node_range(const Block<Dim>& b, int component, const std::array<int, 3>& cell) {
+  std::array<double, 2> x = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    const int r = b.grid.node_row(cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2 & 1));
+    const double at = b.position[static_cast<std::size_t>(component)].row(r)[cell[0] + (corner & 1)];
+    x = {std::min(x[0], at), std::max(x[1], at)};
+  }
+  return x;
+}
+
+/// Weights along the axes, 0 to 1, of the place in a cell whose nodes' mean they make is nearest to `at` (Newton's method on the
+/// multilinear map; outside the cell they are held to its sides).
+template <int Dim> std::array<double, Dim> place_in_cell(const Block<Dim>& b, const std::array<int, 3>& cell, const std::array<double, 3>& at) {
+  using Vector = Eigen::Matrix<double, Dim, 1>;
+  std::array<double, Dim> s{};
+  s.fill(0.5);
+  for (int turn = 0; turn < 8; ++turn) {
+    Vector miss;
+    Eigen::Matrix<double, Dim, Dim> slope = Eigen::Matrix<double, Dim, Dim>::Zero();
+    for (int d = 0; d < Dim; ++d) {
+      miss[d] = at[static_cast<std::size_t>(d)];
+    }
+    for (int corner = 0; corner < (1 << Dim); ++corner) {
+      const int r = b.grid.node_row(cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2 & 1));
+      for (int d = 0; d < Dim; ++d) {
+        const double x = b.position[static_cast<std::size_t>(d)].row(r)[cell[0] + (corner & 1)];
+        double all = x;
+        for (int a = 0; a < Dim; ++a) {
+          const double part = s[static_cast<std::size_t>(a)];
+          all *= (corner >> a & 1) != 0 ? part : 1 - part;
+          double others = (corner >> a & 1) != 0 ? x : -x;
+          for (int c = 0; c < Dim; ++c) {
+            const double q = s[static_cast<std::size_t>(c)];
+            others *= c == a ? 1 : (corner >> c & 1) != 0 ? q : 1 - q;
+          }
+          slope(d, a) += others;
+        }
+        miss[d] -= all;
+      }
+    }
+    const Vector step = slope.inverse() * miss;
+    for (int a = 0; a < Dim; ++a) {
+      s[static_cast<std::size_t>(a)] = std::clamp(s[static_cast<std::size_t>(a)] + step[a], 0.0, 1.0);
+    }
+  }
+  return s;
+}
+
 } // namespace
 
 template <int Dim> double kinetic_energy(const Block<Dim>& b, int slot) {
@@ -148,7 +199,14 @@ measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, doubl
     m.mass += mass;
     const auto along = static_cast<std::size_t>(axis);
     momentum += (mass - sliding) * mean_velocity(b, false, along, i, j, k) + sliding * mean_velocity(b, true, along, i, j, k);
-    if (f >= 0.5) {
+    if (f >= 0.5 && b.map.curved()) { // no rows across the shot: the nodes of its cells
+      for (int d = 0; d < Dim; ++d) {
+        const auto x = node_range(b, d, cell);
+        low = d == axis ? std::min(low, x[0]) : low;
+        high = d == axis ? std::max(high, x[1]) : high;
+        m.radius = d == axis ? m.radius : std::max({m.radius, x[1], -x[0]});
+      }
+    } else if (f >= 0.5) {
       low = std::min(low, reach(b, slots, axis, -1, cell, f));
       high = std::max(high, reach(b, slots, axis, 1, cell, f));
       for (int other = 0; other < Dim; ++other) {
@@ -218,7 +276,7 @@ template <int Dim>
 std::array<int, 3> find_cell(const Block<Dim>& b, const std::array<double, 3>& at) {
   const Grid& g = b.grid;
   std::array<int, 3> cell = {0, 0, 0};
-  if (b.motion.remaps() && b.motion.policy != MotionPolicy::relax) {
+  if (b.motion.remaps() && b.motion.policy != MotionPolicy::relax && !b.map.curved()) {
     const auto& lines = b.motion.policy == MotionPolicy::follow ? b.position : b.target;
     for (int axis = 0; axis < Dim; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
@@ -253,15 +311,18 @@ template <int Dim>
 std::array<double, 3>
 velocity_at(const Block<Dim>& b, const std::array<int, 3>& cell, const std::array<double, 3>& at) {
   std::array<double, 3> u{};
-  double part[3] = {};
+  std::array<double, Dim> part{};
   const bool sliding = mostly_slides(b, b.grid.cell_row(cell[1], cell[2]), cell[0]);
   for (int d = 0; d < Dim; ++d) {
     const auto x = cell_range(b, d, cell[0], cell[1], cell[2]);
-    part[d] = std::clamp((at[static_cast<std::size_t>(d)] - x[0]) / (x[1] - x[0]), 0.0, 1.0);
+    part[static_cast<std::size_t>(d)] = std::clamp((at[static_cast<std::size_t>(d)] - x[0]) / (x[1] - x[0]), 0.0, 1.0);
+  }
+  if (b.map.curved()) {
+    part = place_in_cell(b, cell, at);
   }
   for (int corner = 0; corner < (1 << Dim); ++corner) {
     double w = 1;
-    for (int d = 0; d < Dim; ++d) {
+    for (std::size_t d = 0; d < Dim; ++d) {
       w *= corner >> d & 1 ? part[d] : 1 - part[d];
     }
     const int r = b.grid.node_row(cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2 & 1));

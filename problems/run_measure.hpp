@@ -10,7 +10,8 @@ namespace ballast {
 struct BodyMeasure {
   double mass = 0;     ///< kg; planar: per metre
   double velocity = 0; ///< mean by mass along the shot, m/s
-  double front = 0, rear = 0; ///< extreme positions along the shot where the fraction passes one half
+  /// Extreme positions along the shot where the fraction passes one half (on curvilinear meshes: nodes of cells at least half full).
+  double front = 0, rear = 0;
   double radius = 0;          ///< largest across it
 };
 template <int Dim>
@@ -29,9 +30,9 @@ struct GaugePoint {
   std::array<int, 3> cell{-1, -1, -1};
 };
 
-/// The cell of the block that holds a point, searched on the target mesh (eulerian) or cell by cell.
+/// The cell of the block that holds a point, searched on the target mesh (eulerian) or cell by cell (the nearest middle).
 template <int Dim> std::array<int, 3> find_cell(const Block<Dim>& block, const std::array<double, 3>& at);
-/// Velocity at a point of a cell: mean of its nodes weighted by the distance along each axis.
+/// Velocity at a point of a cell: mean of its nodes weighted by the distance along each axis (curvilinear meshes: by the place in the cell).
 template <int Dim>
 std::array<double, 3> velocity_at(const Block<Dim>& block, const std::array<int, 3>& cell, const std::array<double, 3>& at);
 

@@ -228,6 +228,7 @@ std::string reference() {
   return out + key_reference({&top(),
                               &ambient(),
                               &body(),
+                              &velocity_radial(2),
                               &shape(),
                               &box(2),
                               &sphere(2),

@@ -199,6 +199,8 @@ std::vector<int> sliding_materials(Deck& deck, DeckNode* list, const SceneSpec& 
     deck.fail_key(*list, "leaves nothing to slide along", "some of the materials, not all");
   } else if (!sliding.empty() && scene.motion.policy == MotionPolicy::lagrangian) {
     deck.fail_key(*list, "needs a remapped mesh: without a remap nothing slides", "motion.policy = \"eulerian\", or no sliding");
+  } else if (!sliding.empty() && scene.map.curved()) {
+    deck.fail_key(*list, "needs a rectilinear mesh: its walls are across the axes", "a mesh without `map`, or no sliding");
   } else if (!sliding.empty() && outflow) {
     deck.fail_key(*list, "does not work with an outflow side: it holds one velocity a node", "other sides (free, wall), or no sliding");
   }
@@ -227,6 +229,7 @@ void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
 /// Checks the length and that the point lies in the mesh.
 bool check_gauge_place(Deck& deck, DeckNode& at, const SceneSpec& scene) {
   const std::vector<std::string> names = axis_names(scene.geometry);
+  const Bounds mesh = mesh_bounds(scene);
   if (at.items.size() != names.size()) {
     deck.fail(at,
               fmt::format("{} coordinates in a {} scene", at.items.size(), name_of(scene.geometry)),
@@ -234,12 +237,11 @@ bool check_gauge_place(Deck& deck, DeckNode& at, const SceneSpec& scene) {
     return false;
   }
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto& lines = scene.mesh_lines[k];
     const double x = at.items[k].number;
-    if (!lines.empty() && (x < lines.front() || x > lines.back())) {
+    if (x < mesh.lo[k] || x > mesh.hi[k]) {
       deck.fail(at.items[k],
                 fmt::format("{:g} m lies outside the mesh", x),
-                fmt::format("{} from {:g} to {:g} m", names[k], lines.front(), lines.back()));
+                fmt::format("{} from {:g} to {:g} m", names[k], mesh.lo[k], mesh.hi[k]));
       return false;
     }
   }
@@ -312,7 +314,9 @@ void read_results(Deck& deck, DeckNode& node, SceneSpec& scene) {
   if (DeckNode* bullet = in.node("bullet")) {
     read_bullet(deck, *bullet, scene);
   }
-  if (in.has("target")) {
+  if (in.has("target") && scene.map.curved()) {
+    deck.fail_key(*in.node("target"), "a cavity is measured along rows across the shot", "a mesh without `map`");
+  } else if (in.has("target")) {
     std::vector<std::string> names;
     for (const Material& m : scene.materials) {
       names.push_back(m.name);
@@ -387,6 +391,9 @@ SceneSpec read_scene(Deck& deck) {
     // follows those of the bodies only if bodies name it too.
     if (DeckNode* mesh = top.node("mesh")) {
       read_mesh(deck, *mesh, top.texts("symmetry"), book, scene);
+      if (DeckNode* symmetry = top.node("symmetry"); symmetry != nullptr && scene.map.curved() && !symmetry->items.empty()) {
+        deck.fail_key(*symmetry, "only with a rectilinear mesh", "sides of [mesh.AXIS]: planes through the centre are symmetric");
+      }
     }
     read_bodies(deck, top.node("body"), book, scene);
     read_background(deck, top, book, scene);

@@ -1,5 +1,7 @@
 #include "problems/scene_report.hpp"
 
+#include "problems/mapped_fractions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,12 +10,16 @@
 namespace ballast {
 namespace {
 
-/// Calls visit(lo, hi) for every cell whose place overlaps `b`.
+/// Calls visit(lo, hi) for every cell whose place overlaps `b` (of a mapped mesh for every cell), in logical coordinates.
 template <class Visit> void for_cells(const SceneSpec& scene, const Bounds& b, Visit visit) {
   std::array<std::pair<std::size_t, std::size_t>, 3> range{{{0, 1}, {0, 1}, {0, 1}}};
   const auto dim = static_cast<std::size_t>(dimensions(scene.geometry));
   for (std::size_t k = 0; k < dim; ++k) {
     const auto& x = scene.mesh_lines[k];
+    if (scene.map.curved()) {
+      range[k] = {0, x.size() - 1};
+      continue;
+    }
     const auto first = std::upper_bound(x.begin(), x.end(), b.lo[k]) - x.begin();
     const auto last = std::lower_bound(x.begin(), x.end(), b.hi[k]) - x.begin();
     range[k] = {static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, first - 1)),
@@ -57,8 +63,8 @@ std::string boundary_text(const Boundary& b, const SceneSpec& scene) {
 }
 
 std::string mesh_table(const SceneSpec& scene) {
-  std::string out = fmt::format("mesh: {} cells\n", cell_count(scene));
-  const std::vector<std::string> names = axis_names(scene.geometry);
+  std::string out = fmt::format("mesh: {} cells{}\n", cell_count(scene), scene.map.curved() ? ", curvilinear" : "");
+  const std::vector<std::string> names = mesh_axis_names(scene);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto& x = scene.mesh_lines[k];
     double smallest = x.back() - x.front(), largest = 0;
@@ -66,13 +72,18 @@ std::string mesh_table(const SceneSpec& scene) {
       smallest = std::min(smallest, x[i + 1] - x[i]);
       largest = std::max(largest, x[i + 1] - x[i]);
     }
-    out += fmt::format("  {}  {:9.3f} to {:9.3f} mm  {:6} cells of {:.4g} to {:.4g} mm  {} | {}\n",
+    const Dimension dimension = mesh_axis_dimension(scene.map, static_cast<int>(k));
+    const double per_unit = dimension == Dimension::length ? 1e3 : dimension == Dimension::angle ? 180 / std::numbers::pi : 1;
+    const char* unit = dimension == Dimension::length ? " mm" : dimension == Dimension::angle ? " deg" : "";
+    out += fmt::format("  {}  {:9.3f} to {:9.3f}{}  {:6} cells of {:.4g} to {:.4g}{}  {} | {}\n",
                        names[k],
-                       x.front() * 1e3,
-                       x.back() * 1e3,
+                       x.front() * per_unit,
+                       x.back() * per_unit,
+                       unit,
                        x.size() - 1,
-                       smallest * 1e3,
-                       largest * 1e3,
+                       smallest * per_unit,
+                       largest * per_unit,
+                       unit,
                        boundary_text(scene.boundaries[k][0], scene),
                        boundary_text(scene.boundaries[k][1], scene));
   }
@@ -107,7 +118,8 @@ std::string body_table(const SceneSpec& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& b = scene.bodies[i];
     const double speed = std::hypot(b.velocity[0], b.velocity[1], b.velocity[2]);
-    out += fmt::format("  {:<16} {:<16} {:12.6g} {}  {:8.4g} m/s  {:.5g} J  {}\n",
+    const std::string radial = b.radial ? fmt::format(", radially {:g} m/s{}", b.radial->speed, b.radial->power == 0 ? "" : fmt::format(" at {:g} mm", b.radial->at * 1e3)) : "";
+    out += fmt::format("  {:<16} {:<16} {:12.6g} {}  {:8.4g} m/s  {:.5g} J{}  {}\n",
                        b.name,
                        b.material < 0 ? "void"
                                       : scene.materials[static_cast<std::size_t>(b.material)].name,
@@ -115,6 +127,7 @@ std::string body_table(const SceneSpec& scene) {
                        planar ? "kg/m" : "g",
                        speed,
                        0.5 * filled[i].mass * speed * speed,
+                       radial,
                        describe(b.shape));
   }
   return out;
@@ -178,8 +191,13 @@ std::vector<Filled> filled_bodies(const SceneSpec& scene) {
     above.insert(above.begin(), &scene.bodies[i].shape); // this body and those that replace it
     shares.resize(above.size());
     for_cells(scene, bounds(scene.bodies[i].shape), [&](const Point& lo, const Point& hi) {
-      visible_fractions(above, scene.geometry, lo, hi, shares);
-      filled[i].volume += shares[0] * cell_volume(scene.geometry, lo, hi);
+      if (scene.map.curved()) {
+        mapped_fractions(above, scene.map, scene.geometry, lo, hi, shares);
+        filled[i].volume += shares[0] * mapped_cell_volume(scene.map, scene.geometry, lo, hi);
+      } else {
+        visible_fractions(above, scene.geometry, lo, hi, shares);
+        filled[i].volume += shares[0] * cell_volume(scene.geometry, lo, hi);
+      }
     });
     filled[i].mass = filled[i].volume * scene.bodies[i].density;
   }
@@ -197,8 +215,11 @@ double estimated_steps(const SceneSpec& scene) {
     }
   }
   double smallest = std::numeric_limits<double>::infinity();
+  if (scene.map.curved()) {
+    for_cells(scene, {}, [&](const Point& lo, const Point& hi) { smallest = std::min(smallest, mapped_cell_size(scene.map, scene.geometry, lo, hi)); });
+  }
   for (const auto& x : scene.mesh_lines) {
-    for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < x.size() && !scene.map.curved(); ++i) {
       smallest = std::min(smallest, x[i + 1] - x[i]);
     }
   }

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "ale/scene.hpp"
+#include "core/mesh_map.hpp"
+#include "core/units.hpp"
 #include "materials/material.hpp"
 #include "problems/shapes.hpp"
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,16 +27,32 @@ struct Boundary {
   double specific_energy = 0; ///< inflow, J/kg, from density and pressure
 };
 
+/// Velocity along the outward radius from a point, or from an axis through it: speed (at / R)^power. A power of one less than
+/// the dimensions the radius spans (1 around an axis, 2 around a point in space) keeps every volume: div u = 0.
+struct RadialVelocity {
+  double speed = 0; ///< m/s outward, at the distance `at` (m)
+  double at = 0;
+  double power = 0;
+  Point centre{};
+  int along = -1; ///< coordinate of the axis that the radius is taken from (mesh axes), -1: from the point itself
+
+  Point operator()(const Point& x) const; ///< zero at the centre
+};
+
 /// A piece of the initial state. Later bodies replace earlier ones where they overlap.
 struct Body {
   std::string name;
   int material = -1; ///< index into SceneSpec::materials, -1: void (a hole)
   Shape shape;
   Point velocity{};           ///< m/s
-  Point aim{};                ///< the normal an oblique bullet is shot along; 0: its velocity
   double density = 0;         ///< kg/m3, the material's unless the deck says otherwise
   double pressure = 0;        ///< Pa, ambient unless the deck says otherwise
   double specific_energy = 0; ///< J/kg, from density and pressure unless the deck gives it
+  std::optional<RadialVelocity> radial = {}; ///< beside `velocity`
+  Point aim = {};             ///< the normal an oblique bullet is shot along; 0: its velocity
+
+  bool moves() const { return velocity != Point{} || (radial && radial->speed != 0); }
+  Point velocity_at(const Point& x) const;
 };
 
 enum class Switch { automatic, on, off };
@@ -68,8 +87,9 @@ struct Results {
 struct SceneSpec {
   std::string title;
   Geometry geometry = Geometry::planar;
-  /// Node coordinates of the rectilinear mesh along each axis, ascending (m); third empty in 2D.
+  /// Logical coordinates of the nodes along each axis, ascending; third empty in 2D. On a rectilinear mesh they are places (m).
   std::array<std::vector<double>, 3> mesh_lines;
+  MeshMap map; ///< what they are on another
   std::array<std::array<Boundary, 2>, 3> boundaries; ///< [axis][0 low side, 1 high side]
   double end_time = 0;                               ///< s
   double ambient_pressure = 101325;                  ///< Pa; also p_ref of the gauge pressures
@@ -101,7 +121,13 @@ std::string name_of(Geometry geometry);
 std::vector<std::string> axis_names(Geometry geometry);
 /// Cells of the mesh, all axes multiplied.
 std::size_t cell_count(const SceneSpec& scene);
-/// Shares of the cell lo..hi that each body shows, later bodies replacing earlier ones.
+/// Smallest box that holds the mesh (m); all of space where the mesh is not known (its lines have errors).
+Bounds mesh_bounds(const SceneSpec& scene);
+/// Names of the mesh's own axes: axis_names, or "radius", "angle" ... of a map.
+std::vector<std::string> mesh_axis_names(const SceneSpec& scene);
+/// What the mesh's coordinates along an axis are.
+Dimension mesh_axis_dimension(const MeshMap& map, int axis);
+/// Shares of the cell lo..hi (logical coordinates) that each body shows, later bodies replacing earlier ones.
 void body_fractions(const SceneSpec& scene,
                     const Point& lo,
                     const Point& hi,

@@ -5,6 +5,7 @@
 #include "remap/reconstruct.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ballast {
 
@@ -19,16 +20,16 @@ template <int Dim> int material_beyond(const Block<Dim>& b, int axis, int side) 
   return s.kind == BoundaryKind::free && b.reference_pressure == 0 ? b.void_index() : -1;
 }
 
-/// The volume fractions that interfaces in the section depend on: all in 2D, the layers j = 0 and 1 in 3D.
+/// The volume fractions that interfaces in the section depend on: all in 2D, the section's layer and the next in 3D.
 /// Ghosts are filled here: a block's own are only up to date in a sweep.
 template <int Dim> struct Fractions {
   Grid grid;
   std::vector<TileStore> stores;
   std::vector<const TileStore*> views;
 
-  explicit Fractions(const Block<Dim>& b) : grid(Dim, b.grid.cells) {
+  Fractions(const Block<Dim>& b, int layer) : grid(Dim, b.grid.cells) {
     if (Dim == 3) {
-      grid.cells[1] = std::min(2, grid.cells[1]);
+      grid.cells[1] = std::min(2, grid.cells[1] - layer);
     }
     for (const MaterialSlot& slot : b.materials) {
       TileStore& store = stores.emplace_back(grid, grid.cell_rows(), 1, 0);
@@ -36,7 +37,7 @@ template <int Dim> struct Fractions {
       const auto row = [&](int j, int k) { return store.row(0, grid.cell_row(j, k)); };
       for (int k = 0; k < grid.cells[2]; ++k) {
         for (int j = 0; j < grid.cells[1]; ++j) {
-          const double* f = slot.store.row(field::fraction, b.grid.cell_row(j, k));
+          const double* f = slot.store.row(field::fraction, b.grid.cell_row(j + layer, k));
           std::copy(f, f + grid.cells[0], row(j, k));
         }
       }
@@ -44,7 +45,7 @@ template <int Dim> struct Fractions {
     }
     for (int axis = 0; axis < Dim; ++axis) {
       for (int side = 0; side < 2; ++side) {
-        if (const int material = material_beyond(b, axis, side); material >= 0 && (Dim == 2 || axis != 1 || side == 0)) {
+        if (const int material = material_beyond(b, axis, side); material >= 0 && (Dim == 2 || axis != 1 || (side == 0 && layer == 0))) {
           fill_beyond(axis, side, material);
         }
       }
@@ -89,16 +90,29 @@ template <int Dim> remap::Polygon<2> part_of(const remap::Reconstruction<Dim>& c
 
 } // namespace
 
+template <int Dim> int section_layer(const Block<Dim>& b) {
+  int best = 0;
+  if (Dim == 2 || !b.map.curved()) {
+    return best;
+  }
+  const auto height = [&](int j) { return std::abs(b.target[1].row(b.grid.node_row(j, 0))[b.grid.cells[0] / 2] - b.map.centre[1]); };
+  for (int j = 1; j < b.grid.cells[1]; ++j) {
+    best = height(j) < height(best) ? j : best;
+  }
+  return best;
+}
+
 template <int Dim> io::GridDump::Polygons section_polygons(const Block<Dim>& b, remap::NormalMethod normal) {
   constexpr int up = Dim - 1; // the section's other axis: y or z
   io::GridDump::Polygons out;
-  const Fractions<Dim> fractions(b);
+  const int layer = section_layer(b);
+  const Fractions<Dim> fractions(b, layer);
   for_each_cell(b, [&](int i, int j, int k) {
     const int r = b.grid.cell_row(j, k);
-    if (b.owner_row(r)[i] >= 0 || !in_section<Dim>(b.grid, r)) {
+    if (b.owner_row(r)[i] >= 0 || !in_section<Dim>(b.grid, r, layer)) {
       return;
     }
-    const auto cell = remap::reconstruct_cell<Dim>(fractions.grid, fractions.views, normal, fractions.grid.cell_row(j, k), i);
+    const auto cell = remap::reconstruct_cell<Dim>(fractions.grid, fractions.views, normal, fractions.grid.cell_row(j - layer, k), i);
     const int n0 = b.grid.node_row(j, k), n1 = n0 + b.grid.node_row_stride(up);
     const auto at = [&](int n, int q) { return remap::Point<2>{b.position[0].row(n)[q], b.position[up].row(n)[q]}; };
     const remap::Quad outline = {at(n0, i), at(n0, i + 1), at(n1, i + 1), at(n1, i)};
@@ -125,6 +139,8 @@ template <int Dim> io::GridDump::Polygons section_polygons(const Block<Dim>& b, 
   return out;
 }
 
+template int section_layer<2>(const Block<2>&);
+template int section_layer<3>(const Block<3>&);
 template io::GridDump::Polygons section_polygons<2>(const Block<2>&, remap::NormalMethod);
 template io::GridDump::Polygons section_polygons<3>(const Block<3>&, remap::NormalMethod);
 

@@ -59,9 +59,10 @@ template <int Dim> struct Mesh {
   std::array<std::array<bool, 2>, 3> open{};         ///< sides material may cross
   std::array<std::array<bool, 2>, 3> fed{};          ///< open sides behind which there is what `outside` says
   OutsideState outside = {};                         ///< asked for ghost cells of sides that are fed, by one thread
-  /// Sides that prescribe the velocity along their axis, and that velocity (m/s): their nodes keep it, what
-  /// momentum the remap brings them goes to the wall.
+  /// Sides that prescribe the velocity along their normal, the component that is (along the axis on a rectilinear mesh), and that
+  /// velocity (m/s): their nodes keep it, what momentum the remap brings them goes to the wall.
   std::array<std::array<bool, 2>, 3> fixed{};
+  std::array<std::array<int, 2>, 3> fixed_component = {{{0, 0}, {1, 1}, {2, 2}}};
   std::array<std::array<double, 2>, 3> fixed_velocity{};
   std::array<RowField, Dim>& position;               ///< in: where the nodes are; out: the target
   const std::array<RowField, Dim>& target;

@@ -125,12 +125,13 @@ public:
     const double* mass = next_mass_row(r);
     double* loss = lost_.data();
     for (std::size_t axis = 0; axis < Dim; ++axis) {
-      double* u = g_.next_velocity[axis].row(r);
       for (std::size_t side = 0; side < 2; ++side) {
         const int at = side == 0 ? 0 : g.cells[axis];
         if (!m_.fixed[axis][side] || (axis > 0 && index[axis] != at)) {
           continue;
         }
+        const auto component = static_cast<std::size_t>(m_.fixed_component[axis][side]);
+        double* u = g_.next_velocity[component].row(r);
         const double want = m_.fixed_velocity[axis][side];
         const Span awake = m_.nodes(r);
         const int first = axis == 0 ? std::max(at, awake.begin) : awake.begin, end = axis == 0 ? std::min(at + 1, awake.end) : awake.end;
@@ -139,7 +140,7 @@ public:
             // m (u^2 - w^2)/2 = m (u - w)^2/2, lost, + w m (u - w), the wall's work.
             loss[i] += 0.5 * mass[i] * (u[i] - want) * (u[i] - want);
             sums.kinetic_out += want * mass[i] * (u[i] - want);
-            sums.momentum_out[axis] += mass[i] * (u[i] - want);
+            sums.momentum_out[component] += mass[i] * (u[i] - want);
             u[i] = want;
           }
         }

@@ -70,6 +70,8 @@ void add_facts(vtkDataSet* set, const GridDump& dump, double time) {
   add_strings(set->GetFieldData(), "geometry", {dump.geometry});
   if (!dump.symmetry.empty())
     add_strings(set->GetFieldData(), "symmetry", dump.symmetry);
+  if (dump.section_layer > 0)
+    add_strings(set->GetFieldData(), "section_layer", {std::to_string(dump.section_layer)});
   if (!dump.material_names.empty())
     add_strings(set->GetFieldData(), "material_names", dump.material_names);
   vtkNew<vtkDoubleArray> when;

@@ -34,6 +34,7 @@ struct GridDump {
   std::string geometry = "planar"; // planar | axisymmetric | 3d
   std::vector<std::string>
       symmetry;               // axes (x, y, z) at whose 0 the rest is the mirror image; 3D only
+  int section_layer = 0;      // 3D: layer along j whose lower face pictures show
   std::array<int, 3> cells{}; // cells[2] = 0 in 2D
   std::vector<double> points; // 3 per node, i fastest
   std::vector<Array> cell_arrays, point_arrays;

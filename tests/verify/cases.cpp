@@ -29,6 +29,10 @@ std::vector<VerifyCase> verification_cases() {
   verify::add_spall_cases(cases);
   verify::add_gas_metal_cases(cases);
   verify::add_eos_cases(cases);
+  verify::add_shell_cases(cases);
+  verify::add_standing_wave_cases(cases);
+  verify::add_round_solid_cases(cases);
+  verify::add_spinning_disc_cases(cases);
   return cases;
 }
 

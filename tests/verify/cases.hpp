@@ -30,5 +30,9 @@ void add_plate_cases(std::vector<VerifyCase>& cases);
 void add_spall_cases(std::vector<VerifyCase>& cases);
 void add_gas_metal_cases(std::vector<VerifyCase>& cases);
 void add_eos_cases(std::vector<VerifyCase>& cases);
+void add_shell_cases(std::vector<VerifyCase>& cases);
+void add_standing_wave_cases(std::vector<VerifyCase>& cases);
+void add_round_solid_cases(std::vector<VerifyCase>& cases);
+void add_spinning_disc_cases(std::vector<VerifyCase>& cases);
 
 } // namespace ballast::verify

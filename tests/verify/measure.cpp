@@ -10,7 +10,10 @@
 
 namespace ballast::verify {
 
-const char* short_name(MotionPolicy motion) { return motion == MotionPolicy::lagrangian ? "Lag" : "Eul"; }
+const char* short_name(MotionPolicy motion) {
+  static const char* const names[] = {"Lag", "Eul", "follow", "relax"};
+  return names[static_cast<int>(motion)];
+}
 
 template <int Dim> void conserves(VerifyReport& r, const std::string& name, const TubeRun<Dim>& run) {
   const Conservation c = conservation(run);

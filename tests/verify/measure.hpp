@@ -11,7 +11,7 @@
 
 namespace ballast::verify {
 
-const char* short_name(MotionPolicy motion); ///< Lag, Eul
+const char* short_name(MotionPolicy motion); ///< Lag, Eul, follow, relax
 
 /// Gate: mass of each material, momentum (with the walls' impulse) and total energy of a run kept to 1e-12 of
 /// their scale, every ledger entry counted; with energy return on, also that the remap returned all it lost.

@@ -162,6 +162,10 @@ std::optional<ExactSolution> exact_solution_of(const SceneSpec& s, std::string& 
     why_not = "exact solutions are known of planar and 3d scenes only";
     return std::nullopt;
   }
+  if (s.map.curved()) {
+    why_not = "exact solutions are known on rectilinear meshes only";
+    return std::nullopt;
+  }
   for (int axis = 0; axis < dimensions(s.geometry); ++axis) {
     const auto h = halves_of(s, axis);
     if (!h) {

@@ -1,0 +1,26 @@
+// Parts of the mesh reader that know curvilinear meshes. Private to problems/.
+#pragma once
+
+#include "core/deck_keys.hpp"
+#include "problems/scene_spec.hpp"
+
+namespace ballast {
+
+/// `map`, `outer_radius` and `centre` of [mesh]; scene.geometry and motion must be known. False: no such map, its axes mean nothing.
+bool read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene);
+
+/// False (and an error) where the lines of an axis reach to where its map has no cells.
+bool check_mapped_axis(Deck& deck, DeckNode& axis_table, const SceneSpec& scene, int axis);
+
+/// A side of a mapped mesh whose lines are known.
+struct MappedSide {
+  int normal = -1;            ///< velocity component, -1: curved or slanted
+  bool cuts_the_body = false; ///< a plane through the centre: symmetric unless the deck says otherwise
+  bool axis = false;          ///< r = 0
+};
+MappedSide mapped_side(const SceneSpec& scene, int axis, int side);
+
+/// May this side of a mapped mesh be of this kind? If not, an error at `type`.
+bool check_mapped_side(Deck& deck, DeckNode& type, const SceneSpec& scene, int axis, int side, BoundaryKind kind);
+
+} // namespace ballast
