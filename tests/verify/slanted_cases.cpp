@@ -47,7 +47,7 @@ template <class State> Block<2> slanted_block(const Slanted& s, State&& state) {
     std::copy(x, x + s.cells + 1, b.target[0].row(b.grid.node_row(j, 0)));
   }
   for (int j = 0; j < s.across; ++j) {
-    cell_volumes(b, b.position, j, 0, b.volume.row(b.grid.cell_row(j, 0)));
+    cell_volumes(b, b.position, j, 0, Span{0, b.grid.cells[0]}, b.volume.row(b.grid.cell_row(j, 0)));
   }
   exchange_cells(b.grid, b.volume);
   b.target_volume = b.volume;
