@@ -67,7 +67,7 @@ struct TellingWord {
   Colour colour;
 };
 constexpr Colour pale{236, 239, 243};
-constexpr std::array<TellingWord, 22> telling_words{{{"air", pale},
+constexpr std::array<TellingWord, 23> telling_words{{{"air", pale},
                                                      {"void", pale},
                                                      {"vacuum", pale},
                                                      {"gas", pale},
@@ -87,7 +87,8 @@ constexpr std::array<TellingWord, 22> telling_words{{{"air", pale},
                                                      {"lung", {232, 170, 190}},
                                                      {"water", {150, 195, 230}},
                                                      {"steel", {70, 105, 150}},
-                                                     {"alumin", {150, 165, 185}},
+                                                     {"alumin", {168, 180, 196}},
+                                                     {"al_", {168, 180, 196}},
                                                      {"ceramic", {120, 160, 140}}}};
 
 bool same(Colour a, Colour b) {

@@ -167,7 +167,7 @@ private:
     const double *low = low_.data(), *high = high_.data();
     const double *held1 = g_.node_mass.row(r - stride) - shift, *held2 = g_.node_mass.row(r);
     double *central = central_.data(), *edge = edge_.data();
-    const double hollow_share = m_.sliding != nullptr ? edge_share : empty_share;
+    const double hollow_share = m_.sliding != nullptr || m_.has_void ? edge_share : empty_share;
 #pragma omp simd
     for (int i = links.begin; i < links.end; ++i) {
       const double give = t[i], m = mid[i], w1 = low[i] * m, w2 = high[i] * m, h1 = held1[i], h2 = held2[i], mass_a = lo[i], mass_c = hi[i];
