@@ -120,6 +120,7 @@ template <int Dim> struct Block {
 
   RowField volume, next_volume;
   RowField target_volume; ///< on the target mesh
+  bool at_target = false, left_target = false; ///< is position the target, bit by bit; was it before the last Lagrangian step?
   RowField density, pressure, modulus, wave_speed; ///< of the whole cell
   std::array<RowField, stress_components<Dim>> stress; ///< empty unless a material has strength
   /// Of the cell, likewise: shear modulus (mixed: harmonic mean, 0 beside void or a fluid), sum of fraction x flow stress.

@@ -343,6 +343,8 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
       }
     }
     b.volume.swap(b.next_volume);
+    b.left_target = b.at_target;
+    b.at_target = false;
   }
 }
 

@@ -125,6 +125,7 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
                        rest_ahead(b, f);
                      }};
   m.sliding = b.any_sliding() ? &b.sliding : nullptr;
+  m.kept_target = b.left_target && !b.motion.moves_target() ? &b.next_position : nullptr; // of the step's start
   for (MaterialSlot& slot : b.materials) {
     m.materials.push_back(&slot.store);
     m.least_energy.push_back(least_energy(slot.material));
@@ -184,17 +185,19 @@ template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
 }
 
 /// Volumes of the target mesh, exactly, without the sweeps' round-off.
-template <int Dim> void take_target_volume(Block<Dim>& b) {
+template <int Dim> void take_target_volume(Block<Dim>& b, ThreadPool& pool) {
   const Grid& g = b.grid;
-  for (int r = 0; r < g.cell_rows(); ++r) { // ghosts included
-    const Span cells = b.awake.cells(r);
-    const bool first = cells.begin == 0, last = cells.end == g.cells[0];
-    if (!cells.empty()) {
-      const double* from = b.target_volume.row(r);
-      std::copy(from + cells.begin - (first ? g.ghost[0] : 0), from + cells.end + (last ? g.ghost[0] : 0),
-                b.volume.row(r) + cells.begin - (first ? g.ghost[0] : 0));
+  parallel_ranges(pool, g.cell_rows(), [&](int begin, int end, int) {
+    for (int r = begin; r < end; ++r) { // ghosts included
+      const Span cells = b.awake.cells(r);
+      const bool first = cells.begin == 0, last = cells.end == g.cells[0];
+      if (!cells.empty()) {
+        const double* from = b.target_volume.row(r);
+        std::copy(from + cells.begin - (first ? g.ghost[0] : 0), from + cells.end + (last ? g.ghost[0] : 0),
+                  b.volume.row(r) + cells.begin - (first ? g.ghost[0] : 0));
+      }
     }
-  }
+  });
 }
 
 /// Which axis goes first: in turn, or by lot where remaps come when they are due by quality.
@@ -231,7 +234,8 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
                                        "target mesh; remap more often (motion.remap_every)",
                                        b.name, c[0], c[1], c[2], contents(b, c)));
   }
-  take_target_volume(b);
+  b.at_target = !b.motion.moves_target();
+  take_target_volume(b, *scene.pool);
   compute_node_mass(b, *scene.pool);
   if (b.any_sliding()) {
     settle_jumps(b);

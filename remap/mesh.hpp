@@ -84,6 +84,7 @@ template <int Dim> struct Mesh {
   Sliding<Dim>* sliding = nullptr; ///< optional
   Scratch* scratch = nullptr; ///< optional: without it every sweep allocates its own
   const Awake* awake = nullptr; ///< optional: what else there is stays as it is, so nothing looks at it
+  std::array<RowField, Dim>* kept_target = nullptr; ///< optional: holds the same as target and may take position's place
   std::function<void(RowField&, int)> exchange_velocity; ///< fills ghosts of a component
 
   /// Cells, nodes and faces of a row that are awake, by the number of the cell or node row.

@@ -290,15 +290,22 @@ std::array<RowField, Dim> on_the_way(const std::array<RowField, Dim>& start, con
   return to;
 }
 
-template <int Dim> void reach_target(Mesh<Dim>& m) {
-  const Grid& g = m.grid;
-  for (int r = 0; r < g.node_rows(); ++r) {
-    const Span nodes = m.nodes(r);
-    for (std::size_t d = 0; d < Dim && !nodes.empty(); ++d) { // ghosts as well
-      const double* to = m.target[d].row(r);
-      std::copy(to - g.ghost[0], to + g.cells[0] + 1 + g.ghost[0], m.position[d].row(r) - g.ghost[0]);
+template <int Dim> void reach_target(Mesh<Dim>& m, ThreadPool& pool) {
+  if (m.kept_target != nullptr) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      m.position[d].swap((*m.kept_target)[d]);
     }
+    return;
   }
+  const Grid& g = m.grid;
+  parallel_ranges(pool, g.node_rows(), [&](int begin, int end, int) {
+    for (int r = begin; r < end; ++r) {
+      for (std::size_t d = 0; d < Dim && !m.nodes(r).empty(); ++d) { // ghosts as well
+        const double* to = m.target[d].row(r);
+        std::copy(to - g.ghost[0], to + g.cells[0] + 1 + g.ghost[0], m.position[d].row(r) - g.ghost[0]);
+      }
+    }
+  });
 }
 
 template <int Dim> Report remap(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long order) {
@@ -310,7 +317,7 @@ template <int Dim> Report remap(Mesh<Dim>& m, const Settings& settings, ThreadPo
   const Strain whole = strain_of(m, pool, order);
   if (fits(whole)) {
     sweep_all(m, settings, pool, order, report);
-    reach_target(m);
+    reach_target(m, pool);
     return report;
   }
   // Larger motions go in parts: every swept volume then fits its donor and no cell is squeezed between
