@@ -4,7 +4,8 @@
 //   p = pH + Gamma rho (e - eH),  pH = rho0 c0^2 eta / D^2,  eH = pH eta / (2 rho0),
 //   Gamma rho = rho0 (gamma0 + b mu),  mu = rho/rho0 - 1.
 // That is *EOS_GRUNEISEN of LS-DYNA and Steinberg's form (UCRL-MA-106439, 1996) to the letter; b = 0 keeps
-// Gamma rho constant, b = gamma0 keeps Gamma. Tension (rho < rho0): pH = rho0 c0^2 mu, eH = 0, b = 0;
+// Gamma rho constant, b = gamma0 keeps Gamma. Tension (rho < rho0): pH = rho0 c0^2 mu, eH = 0, Gamma constant
+// (LS-DYNA: Gamma rho; hot matter that has expanded would then press as hard at any density);
 // pressure and sound speed are continuous at rho0 for e = 0.
 // Known flaw: where D or the slope of pH vanishes the fit ends (lead: at eta = 0.76, four times its
 // density); sound speed squared is huge or negative there and the step stops.
@@ -49,7 +50,7 @@ private:
     const double dp_push = dph * eta_rho, de_push = 0.5 * (dph * eta + ph) / rho0 * eta_rho;
     const double p = tension ? p_pull : ph, e = tension ? 0.0 : e_push;
     const double dp = tension ? c0 * c0 : dp_push, de = tension ? 0.0 : de_push;
-    const double g_pull = rho0 * gamma0, g = tension ? g_pull : g_push, dg = tension ? 0.0 : b;
+    const double g_pull = rho * gamma0, g = tension ? g_pull : g_push, dg = tension ? gamma0 : b;
     return {p, e, g, dp, de, dg};
   }
 };

@@ -45,7 +45,8 @@ struct StiffenedGas {
 ///
 /// Compression, eta = 1 - rho0/rho: p = pH + Gamma rho (e - eH), pH = rho0 c0^2 eta/(1 - s eta)^2,
 /// eH = pH eta/(2 rho0). Tension (rho < rho0): pH = rho0 c0^2 (rho/rho0 - 1), eH = 0; pressure and
-/// sound speed are continuous at rho0 for e = 0. Gamma rho is constant (default) or Gamma is.
+/// sound speed are continuous at rho0 for e = 0. Gamma rho is constant (default) or Gamma is; below rho0 Gamma is either
+/// way: hot matter that has expanded would else press as hard at any density.
 /// Known flaw: pH is singular at eta = 1/s; the step stops there with sound speed squared < 0 or huge.
 struct MieGruneisen {
   double rho0 = 1000;   ///< kg/m3
@@ -57,7 +58,8 @@ struct MieGruneisen {
   [[gnu::always_inline]] double gamma_rho(double rho) const {
     // Weights, not a choice by the flag: g++ 12 does not vectorise that.
     const double moving = gamma_constant ? 1.0 : 0.0;
-    return gamma0 * (moving * rho + (1 - moving) * rho0);
+    const double held = rho < rho0 ? rho : rho0;
+    return gamma0 * (moving * rho + (1 - moving) * held);
   }
   [[gnu::always_inline]] double pressure(double rho, double e) const {
     const Curve h = curve(rho);
@@ -67,7 +69,8 @@ struct MieGruneisen {
     const Curve h = curve(rho);
     const double g = gamma_rho(rho);
     const double p = h.p + g * (e - h.e);
-    const double dgamma_rho = gamma_constant ? gamma0 : 0.0;
+    const double moving = gamma_constant ? 1.0 : 0.0, below = rho < rho0 ? 1.0 : moving;
+    const double dgamma_rho = gamma0 * below;
     return h.dp - g * h.de + dgamma_rho * (e - h.e) + p / (rho * rho) * g;
   }
   double energy(double rho, double p) const {

@@ -64,7 +64,7 @@ resolution() {
   local s=resolution list
   list="$(scaled 0.25),$(scaled 0.5),$(scaled 1),$(scaled 2)"
   run $s m80 problems/m80_tissue.toml --vary "mesh.refine=$list"
-  run $s m80_window problems/m80_window.toml --vary "mesh.refine=$list" --set 'end_time="60 us"'
+  run $s m80_window problems/m80_window.toml --vary "mesh.refine=$(scaled 0.25),$(scaled 0.5),$(scaled 1)" --set 'end_time="60 us"'
 }
 
 scene_needs() {
@@ -73,7 +73,7 @@ scene_needs() {
   run $s rz problems/m80_tissue.toml --reference default --set 'end_time="60 us"' --set "mesh.refine=$r" \
     --case "default: " \
     --case "asleep off: numerics.sleeping=false" \
-    --case 'uniform: mesh.r.to="60 mm"; mesh.r.size="0.25 mm"; mesh.z.to="140 mm"; mesh.z.size="0.25 mm"' \
+    --case 'uniform: mesh.r.to="64 mm"; mesh.r.size="0.25 mm"; mesh.z.to="148 mm"; mesh.z.size="0.25 mm"' \
     --case "window: deck=problems/m80_window.toml; mesh.refine=$(scaled 0.5)" \
     --case 'near, absorbing: mesh.r.to=["8 mm", "30 mm"]; mesh.r.upper="absorbing"' \
     --case 'near, free: mesh.r.to=["8 mm", "30 mm"]; mesh.r.upper="free"' \

@@ -139,5 +139,18 @@ TEST(Eos, GaugePressureIsExactlyZeroAtTheReference) {
   EXPECT_NEAR(k[0] / (1058 * sound_speed_squared(eos, 1058, e)), 1, 1e-14);
 }
 
+// Sprays and jets expand hot: with Gamma rho constant at any density they would press as hard at a hundredth of theirs, and
+// the sound speed would run away.
+TEST(Eos, HotMatterThatExpandsPressesLess) {
+  constexpr double e = 5e6;
+  MieGruneisen constant{8930, 3940, 1.489, 2.02};
+  constant.gamma_constant = true;
+  for (const Eos& eos : {Eos(MieGruneisen{8930, 3940, 1.489, 2.02}), Eos(constant), Eos(CubicGruneisen{8930, 3940, 1.489, 0, 0, 2.02, 0.5})}) {
+    const double cold = pressure(eos, 89.3, 0), thin = pressure(eos, 89.3, e) - cold;
+    EXPECT_NEAR(thin, 2.02 * 89.3 * e, 1e-12 * thin);
+    EXPECT_LT(std::sqrt(sound_speed_squared(eos, 89.3, e)), 3 * std::sqrt(sound_speed_squared(eos, 8930, 0)));
+  }
+}
+
 } // namespace
 } // namespace ballast
