@@ -284,6 +284,12 @@ void read_part(Context c, const Section& in) {
   }
 }
 
+int body_called(const SceneSpec& scene, const std::string& name) {
+  const auto at = std::find_if(
+      scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
+  return at == scene.bodies.end() ? -1 : static_cast<int>(at - scene.bodies.begin());
+}
+
 } // namespace
 
 void read_bodies(Deck& deck, DeckNode* list, MaterialBook& book, SceneSpec& scene) {
@@ -299,6 +305,28 @@ void read_bodies(Deck& deck, DeckNode* list, MaterialBook& book, SceneSpec& scen
       read_part(c, in);
     }
   }
+}
+
+std::vector<int> listed_bodies(Deck& deck, DeckNode& list, const SceneSpec& scene) {
+  std::vector<int> bodies;
+  std::vector<std::string> names;
+  for (const Body& b : scene.bodies) {
+    names.push_back(b.name);
+  }
+  for (DeckNode& item : list.items) {
+    const int body = body_called(scene, item.text);
+    if (body < 0) {
+      const std::string meant = nearest(item.text, names);
+      deck.fail(item,
+                fmt::format("no body is called \"{}\"{}",
+                            item.text,
+                            meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)),
+                one_of(names));
+      continue;
+    }
+    bodies.push_back(body);
+  }
+  return bodies;
 }
 
 } // namespace ballast
