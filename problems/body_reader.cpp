@@ -168,10 +168,24 @@ std::optional<Point> read_tip(Context c, const Section& in) {
   return point_of(tip);
 }
 
+/// A radial velocity keeps its centre and axis where the deck says, whichever way the body turns or goes.
+bool check_radial_lean(Context c, const Section& in, const Body& body) {
+  for (const char* key : {"yaw", "obliquity", "hit_offset"}) {
+    if (body.radial && in.number(key, 0) != 0) {
+      c.deck.fail_key(*in.node(key), "would not turn or move the `velocity_radial` of this body with it", "0, or no `velocity_radial`");
+      return false;
+    }
+  }
+  return true;
+}
+
 /// A described body that leans: all bodies of one bullet turn about one point, so that is asked for.
 bool lean(Context c, const Section& in, Body& body) {
   if (!leans(in)) {
     return true;
+  }
+  if (!check_radial_lean(c, in, body)) {
+    return false;
   }
   const bool turns = in.number("yaw", 0) != 0 || in.number("obliquity", 0) != 0;
   if (turns && c.scene.geometry == Geometry::three_d && in.self().find("tip") == nullptr) {
