@@ -1,10 +1,8 @@
 #include "ale/traction.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include "ale/interface.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -27,164 +25,12 @@ template <> Eigen::Matrix3d deviator_of<3>(const MaterialSlot& slot, int r, int 
 
 namespace {
 
-constexpr double full_slip = 0.05; ///< of a cell: with less soft matter in it the slip law fades out
-constexpr double most_ease = 2;    ///< of the cell's shear that a material takes: what yields carries no more
-constexpr double spread = 0.1;     ///< weight of the gradients' spread beside their mean in the normal
-constexpr double no_gradient = 1e-6; ///< of fraction from cell to cell
-
-double fraction_of(const MaterialSlot& slot, int r, int i) {
-  return slot.store.row(field::fraction, r)[i];
-}
-
-/// What a cell holds, the least shear traction first: void, fluids, then by flow stress.
-struct Contents {
-  struct Layer {
-    std::size_t material = 0;
-    double fraction = 0;
-    double traction = 0; ///< shear traction it can carry, Pa
-  };
-  std::array<Layer, max_materials_in_cell> layer{};
-  int count = 0;
-
-  const Layer* begin() const { return layer.data(); }
-  const Layer* end() const { return layer.data() + count; }
-
-  /// How much there is to slip on, 0 to 1: a trace of soft matter in a corner does not part what is strong.
-  double slip() const {
-    double soft = 0;
-    const double strongest = count > 0 ? layer[static_cast<std::size_t>(count) - 1].traction : 0.0;
-    for (const Layer& l : *this) {
-      soft += strongest > 0 ? l.fraction * (1 - l.traction / strongest) : 0.0;
-    }
-    return std::min(1.0, soft / full_slip);
-  }
-
-  /// Shear traction, Pa, that a material which could carry `own` finds here: that of what is softer, if there
-  /// is enough of it.
-  double carried(double own) const {
-    double softer = 0, limit = own;
-    for (const Layer& l : *this) {
-      softer += l.traction < own ? l.fraction : 0.0;
-    }
-    for (int k = count - 1; k >= 0; --k) {
-      const Layer& l = layer[static_cast<std::size_t>(k)];
-      if (l.traction < own) {
-        limit += std::min(1.0, softer / full_slip) * (l.traction - limit);
-        softer -= l.fraction;
-      }
-    }
-    return limit;
-  }
-};
-
-template <int Dim> Contents contents_of(const Block<Dim>& b, int r, int i) {
-  Contents c;
-  for (std::size_t m = 0; m < b.materials.size() && c.count < max_materials_in_cell; ++m) {
-    const MaterialSlot& slot = b.materials[m];
-    const double f = fraction_of(slot, r, i);
-    if (f > 0) {
-      const double t = slot.strength ? slot.store.row(slot.flow_stress_field(), r)[i] / std::sqrt(3.0) : 0.0;
-      int at = c.count++;
-      for (; at > 0 && c.layer[static_cast<std::size_t>(at) - 1].traction > t; --at) {
-        c.layer[static_cast<std::size_t>(at)] = c.layer[static_cast<std::size_t>(at) - 1];
-      }
-      c.layer[static_cast<std::size_t>(at)] = {m, f, t};
-    }
-  }
-  return c;
-}
-
-/// Centre of a cell.
-template <int Dim> Eigen::Vector3d centre(const Block<Dim>& b, const std::array<int, 3>& cell) {
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  for (int corner = 0; corner < (1 << Dim); ++corner) {
-    const int r = b.grid.node_row(cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2 & 1));
-    for (std::size_t d = 0; d < Dim; ++d) {
-      x[static_cast<int>(d)] += b.position[d].row(r)[cell[0] + (corner & 1)];
-    }
-  }
-  return x / (1 << Dim);
-}
-
-/// Direction in which a matrix with no negative eigenvalue is largest, zero if that is below `least`.
-template <int Dim> Eigen::Vector3d principal(const Eigen::Matrix3d& m, double least) {
-  Eigen::Vector3d n = Eigen::Vector3d::Zero();
-  if (!(m.trace() > least)) {
-    return n;
-  }
-  if constexpr (Dim == 2) {
-    const double d = 0.5 * (m(0, 0) - m(1, 1)), h = std::sqrt(d * d + m(0, 1) * m(0, 1));
-    n = d >= 0 ? Eigen::Vector3d(d + h, m(0, 1), 0) : Eigen::Vector3d(m(0, 1), h - d, 0);
-  } else {
-    n = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors().col(2);
-  }
-  const double length = n.norm();
-  return length > 0 ? Eigen::Vector3d(n / length) : Eigen::Vector3d::Zero();
-}
-
-/// Unit normal of the interfaces in a cell, up to its sign: of what is softer against what is stronger, each
-/// by how much there is of the lesser. From the gradients of the summed fraction at the cell's corners: their
-/// mean (Youngs) where they agree, their spread where both sides of a sheet are in the cell. Zero without one.
-template <int Dim>
-Eigen::Vector3d normal_of(const Block<Dim>& b, const Contents& contents, const std::array<int, 3>& cell) {
-  const Grid& g = b.grid;
-  Eigen::Matrix3d dx = Eigen::Matrix3d::Identity();
-  std::array<std::array<int, 3>, 3> at{}; // below, here, above, by axis
-  for (std::size_t a = 0; a < 3; ++a) {
-    for (int q = 0; q < 3; ++q) {
-      at[a][static_cast<std::size_t>(q)] = std::clamp(cell[a] + q - 1, 0, std::max(0, g.cells[a] - 1));
-    }
-  }
-  for (int a = 0; a < Dim; ++a) {
-    const auto ua = static_cast<std::size_t>(a);
-    if (g.cells[ua] == 1) {
-      continue; // nothing varies along it
-    }
-    std::array<int, 3> below = cell, above = cell;
-    below[ua] = at[ua][0];
-    above[ua] = at[ua][2];
-    const bool at_side = above[ua] - below[ua] == 1; // beyond it the mirror image, of the same fraction
-    dx.row(a) = (at_side ? 1 : 0.5) * (centre(b, above) - centre(b, below));
-  }
-  const Eigen::Matrix3d to_space = dx.inverse();
-  const double size = dx.topLeftCorner<Dim, Dim>().squaredNorm();
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  double f[3][3][3] = {}, softer = 0;
-  for (auto layer = contents.begin(); layer + 1 < contents.end(); ++layer) {
-    softer += layer->fraction;
-    for (std::size_t z = 0; z < (Dim == 3 ? 3 : 1); ++z) {
-      for (std::size_t y = 0; y < 3; ++y) {
-        const double* row = b.materials[layer->material].store.row(
-            field::fraction, g.cell_row(at[1][y], Dim == 3 ? at[2][z] : 0));
-        for (std::size_t x = 0; x < 3; ++x) {
-          f[z][y][x] += row[at[0][x]];
-        }
-      }
-    }
-    constexpr int corners = 1 << Dim;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-    for (int corner = 0; corner < corners; ++corner) {
-      Eigen::Vector3d df = Eigen::Vector3d::Zero();
-      for (int q = 0; q < corners; ++q) {
-        const double value = f[(corner >> 2) + (q >> 2)][(corner >> 1 & 1) + (q >> 1 & 1)][(corner & 1) + (q & 1)];
-        for (int a = 0; a < Dim; ++a) {
-          df[a] += (q >> a & 1) != 0 ? value : -value;
-        }
-      }
-      const Eigen::Vector3d gradient = to_space * (df * (2.0 / corners));
-      mean += gradient / corners;
-      square += gradient * gradient.transpose() / corners;
-    }
-    sum += std::min(softer, 1 - softer) * ((1 - spread) * mean * mean.transpose() + spread * square);
-  }
-  return principal<Dim>(sum, no_gradient * no_gradient / size);
-}
+constexpr double most_ease = 2; ///< of the cell's shear that a material takes: what yields carries no more
 
 /// Cuts the shear traction of each deviator to what the interface carries. Twice is as good as once.
 template <int Dim>
-void cut_tractions(Block<Dim>& b, const Contents& contents, const Eigen::Vector3d& n, int r, int i) {
-  for (const Contents::Layer& l : contents) {
+void cut_tractions(Block<Dim>& b, const CellLayers& layers, const Eigen::Vector3d& n, int r, int i) {
+  for (const CellLayers::Layer& l : layers) {
     MaterialSlot& slot = b.materials[l.material];
     if (!slot.strength) {
       continue;
@@ -192,7 +38,7 @@ void cut_tractions(Block<Dim>& b, const Contents& contents, const Eigen::Vector3
     const Eigen::Matrix3d s = deviator_of<Dim>(slot, r, i);
     Eigen::Vector3d t = s * n;
     t -= n.dot(t) * n;
-    const double size = t.norm(), carried = contents.carried(l.traction);
+    const double size = t.norm(), carried = layers.carried(l.traction);
     if (!(size > carried + 1e-12 * l.traction)) { // not for round-off: a restart cuts again
       continue;
     }
@@ -216,7 +62,7 @@ template <int Dim> void traction_cell(Block<Dim>& b, int r, int i, const Eigen::
   double soft = 0;
   bool stiff = true;
   for (MaterialSlot& slot : b.materials) {
-    const double f = fraction_of(slot, r, i);
+    const double f = std::as_const(slot).store.row(field::fraction, r)[i];
     if (f <= 0 || cell.count == max_materials_in_cell) {
       continue;
     }
@@ -307,10 +153,10 @@ template <int Dim> void update_traction(Block<Dim>& b, ThreadPool& pool) {
         std::size_t at = make_room(b, r, runs.mixed.size());
         auto& normals = b.interface_normals[static_cast<std::size_t>(r)];
         for (const int i : runs.mixed) {
-          const Contents contents = contents_of(b, r, i);
-          const Eigen::Vector3d n = normal_of(b, contents, {i, j, k});
+          const CellLayers layers = layers_of(b, r, i);
+          const Eigen::Vector3d n = interface_normal(b, layers, {i, j, k});
           normals[at++] = {n[0], n[1], n[2]};
-          cut_tractions(b, contents, n, r, i);
+          cut_tractions(b, layers, n, r, i);
           traction_cell(b, r, i, n);
         }
       }
@@ -328,14 +174,14 @@ void share_strain(const Block<Dim>& b,
                   double compression,
                   double (*out)[9],
                   double* work) {
-  const Contents contents = contents_of(b, r, i);
-  const double slip = contents.slip();
+  const CellLayers layers = layers_of(b, r, i);
+  const double slip = layers.slip();
   const auto tangential = [&](const Eigen::Vector3d& v) { return Eigen::Vector3d(v - n.dot(v) * n); };
   const Eigen::Vector3d shear = tangential((gradient + gradient.transpose()) * n);
   // The traction that all would share if nothing yielded, then what the interface carries.
   Eigen::Vector3d common = shear;
   double soft = 0, open = 0, strongest = 0, yielding = 0;
-  for (const Contents::Layer& l : contents) {
+  for (const CellLayers::Layer& l : layers) {
     const MaterialSlot& slot = b.materials[l.material];
     if (slot.strength) {
       const double compliance = l.fraction / shear_of(slot, r, i);
@@ -347,14 +193,14 @@ void share_strain(const Block<Dim>& b,
     strongest = std::max(strongest, l.traction);
   }
   common /= soft > 0 ? soft : 1;
-  const double carried = contents.carried(strongest), size = common.norm();
+  const double carried = layers.carried(strongest), size = common.norm();
   common *= size > carried ? carried / size : 1.0;
   const auto elastic = [&](const MaterialSlot& slot) {
     return Eigen::Vector3d((common - tangential(deviator_of<Dim>(slot, r, i) * n)) / shear_of(slot, r, i));
   };
   // What is then left of the shear is slip: in what is open, else in what yields.
   Eigen::Vector3d rest = (1 - std::min(1.0, open / full_slip)) * shear;
-  for (const Contents::Layer& l : contents) {
+  for (const CellLayers::Layer& l : layers) {
     if (b.materials[l.material].strength) {
       rest -= l.fraction * elastic(b.materials[l.material]);
       yielding += l.fraction * (strongest - l.traction);

@@ -55,7 +55,8 @@ const SectionSpec& body() {
                "along its `direction`, turned by the obliquity. Default: at rest"},
        {.name = "velocity_radial",
         .kind = table,
-        .doc = "beside `velocity`: along the radius from a point or an axis (below); for shells that collapse or expand"},
+        .doc = "beside `velocity`: along the radius from a point or an axis (below); for shells that collapse or expand; "
+               "not with a yaw, an obliquity or a hit_offset"},
        {.name = "density",
         .kind = quantity,
         .doc = "initial density, the material's if absent",

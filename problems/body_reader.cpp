@@ -168,10 +168,24 @@ std::optional<Point> read_tip(Context c, const Section& in) {
   return point_of(tip);
 }
 
+/// A radial velocity keeps its centre and axis where the deck says, whichever way the body turns or goes.
+bool check_radial_lean(Context c, const Section& in, const Body& body) {
+  for (const char* key : {"yaw", "obliquity", "hit_offset"}) {
+    if (body.radial && in.number(key, 0) != 0) {
+      c.deck.fail_key(*in.node(key), "would not turn or move the `velocity_radial` of this body with it", "0, or no `velocity_radial`");
+      return false;
+    }
+  }
+  return true;
+}
+
 /// A described body that leans: all bodies of one bullet turn about one point, so that is asked for.
 bool lean(Context c, const Section& in, Body& body) {
   if (!leans(in)) {
     return true;
+  }
+  if (!check_radial_lean(c, in, body)) {
+    return false;
   }
   const bool turns = in.number("yaw", 0) != 0 || in.number("obliquity", 0) != 0;
   if (turns && c.scene.geometry == Geometry::three_d && in.self().find("tip") == nullptr) {
@@ -284,6 +298,12 @@ void read_part(Context c, const Section& in) {
   }
 }
 
+int body_called(const SceneSpec& scene, const std::string& name) {
+  const auto at = std::find_if(
+      scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
+  return at == scene.bodies.end() ? -1 : static_cast<int>(at - scene.bodies.begin());
+}
+
 } // namespace
 
 void read_bodies(Deck& deck, DeckNode* list, MaterialBook& book, SceneSpec& scene) {
@@ -299,6 +319,28 @@ void read_bodies(Deck& deck, DeckNode* list, MaterialBook& book, SceneSpec& scen
       read_part(c, in);
     }
   }
+}
+
+std::vector<int> listed_bodies(Deck& deck, DeckNode& list, const SceneSpec& scene) {
+  std::vector<int> bodies;
+  std::vector<std::string> names;
+  for (const Body& b : scene.bodies) {
+    names.push_back(b.name);
+  }
+  for (DeckNode& item : list.items) {
+    const int body = body_called(scene, item.text);
+    if (body < 0) {
+      const std::string meant = nearest(item.text, names);
+      deck.fail(item,
+                fmt::format("no body is called \"{}\"{}",
+                            item.text,
+                            meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)),
+                one_of(names));
+      continue;
+    }
+    bodies.push_back(body);
+  }
+  return bodies;
 }
 
 } // namespace ballast

@@ -22,7 +22,8 @@ struct RunOptions {
 };
 
 struct VerifyOptions {
-  std::vector<std::string> names; ///< empty: all
+  std::vector<std::string> names; ///< empty: all but those too long for every run
+  bool all = false;               ///< those, too
   bool hard = false;              ///< every case at several CFL numbers, remap intervals and closures
   bool list = false;              ///< only name the cases
   int threads = 0;

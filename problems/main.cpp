@@ -57,9 +57,10 @@ int dispatch(int argc, char** argv) {
   sub = word(app, "verify", "run verification cases", result, [&] {
     return ballast::verify_command(verify);
   });
-  sub->add_option("name", verify.names, "cases; default all");
+  auto* names = sub->add_option("name", verify.names, "cases; default all but the long ones that --list marks");
+  sub->add_flag("--all", verify.all, "the long ones, too")->excludes(names);
   sub->add_flag("--hard", verify.hard, "every case at CFL 0.3, 0.5, 0.8, remapped every 1 and 4 steps, with every closure: what ends");
-  sub->add_flag("--list", verify.list, "only name the cases");
+  sub->add_flag("--list", verify.list, "only name the cases, all of them");
   sub->add_option("--threads", verify.threads, "threads; default all")->check(CLI::Range(1, 4096));
 
   ballast::StudyOptions study;

@@ -30,11 +30,12 @@ int run_command(const RunOptions& options) {
 int verify_command(const VerifyOptions& options) {
   if (options.list) {
     for (const VerifyCase& c : verification_cases()) {
-      fmt::print("{:<20} {}\n", c.name, c.law);
+      fmt::print("{:<20} {}{}\n", c.name, c.law, c.by_name ? " (by name or --all)" : ""); // cmake/DiscoverVerify.cmake reads it
     }
     return 0;
   }
-  return (options.hard ? run_hard_verification(options.names) : run_verification(options.names)) == 0 ? 0 : 1;
+  const int failed = options.hard ? run_hard_verification(options.names, options.all) : run_verification(options.names, options.all);
+  return failed == 0 ? 0 : 1;
 }
 
 } // namespace ballast

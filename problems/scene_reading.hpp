@@ -87,6 +87,15 @@ Point point_of(const std::vector<double>& values);
 /// All [[body]] entries.
 void read_bodies(Deck& deck, DeckNode* list, MaterialBook& book, SceneSpec& scene);
 
+/// Bodies by name, as indices; unknown names are reported.
+std::vector<int> listed_bodies(Deck& deck, DeckNode& list, const SceneSpec& scene);
+
+/// [motion], but for what a following mesh goes with.
+void read_motion(Deck& deck, DeckNode& node, Motion& motion);
+
+/// What a following mesh goes with, once there are bodies; its outer sides along that way must let matter through.
+void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene);
+
 /// [mesh] with lines and boundaries.
 void read_mesh(Deck& deck,
                DeckNode& mesh,

@@ -30,28 +30,30 @@ void VerifyReport::note(const std::string& q, double got) { rows_.push_back({q, 
 
 namespace {
 
-/// The named cases, all if none is named. Throws Error.
-std::vector<VerifyCase> chosen_cases(const std::vector<std::string>& names) {
-  std::vector<VerifyCase> all = verification_cases();
+/// The named cases; if none is named those that every run has, or `all`. Throws Error.
+std::vector<VerifyCase> chosen_cases(const std::vector<std::string>& names, bool all) {
+  std::vector<VerifyCase> cases = verification_cases();
   for (const std::string& name : names) {
-    if (std::none_of(all.begin(), all.end(), [&](const VerifyCase& c) { return c.name == name; })) {
+    if (std::none_of(cases.begin(), cases.end(), [&](const VerifyCase& c) { return c.name == name; })) {
       std::string known;
-      for (const VerifyCase& c : all) {
+      for (const VerifyCase& c : cases) {
         known += (known.empty() ? "" : ", ") + c.name;
       }
       throw Error(fmt::format("no verification case '{}'; there are: {}", name, known));
     }
   }
-  std::erase_if(all, [&](const VerifyCase& c) { return !names.empty() && std::find(names.begin(), names.end(), c.name) == names.end(); });
-  return all;
+  std::erase_if(cases, [&](const VerifyCase& c) {
+    return names.empty() ? c.by_name && !all : std::find(names.begin(), names.end(), c.name) == names.end();
+  });
+  return cases;
 }
 
 } // namespace
 
-int run_verification(const std::vector<std::string>& names) {
+int run_verification(const std::vector<std::string>& names, bool all) {
   int passed = 0, failed = 0;
   fmt::print("{:<46} {:>22} {:>12} {:>8} {:>8}\n", "case: quantity", "asked", "got", "cells", "s");
-  for (const VerifyCase& c : chosen_cases(names)) {
+  for (const VerifyCase& c : chosen_cases(names, all)) {
     VerifyReport report;
     const auto start = std::chrono::steady_clock::now();
     try {
@@ -74,7 +76,7 @@ int run_verification(const std::vector<std::string>& names) {
   return failed;
 }
 
-int run_hard_verification(const std::vector<std::string>& names) {
+int run_hard_verification(const std::vector<std::string>& names, bool all) {
   constexpr double cfls[] = {0.3, 0.5, 0.8};
   constexpr int every[] = {1, 4};
   constexpr Closure closures[] = {Closure::pressure_relaxation, Closure::tipton, Closure::equal_strain};
@@ -82,7 +84,7 @@ int run_hard_verification(const std::vector<std::string>& names) {
   int stopped = 0, runs = 0;
   fmt::print("{:<24} {:>4} {:>5} {:<12} {:>9} {:>8} {:>7} {:>8} {:>12}  {}\n", "case", "cfl", "remap", "closure", "ended", "steps", "floors", "retries",
              "unaccounted", "stopped by");
-  for (const VerifyCase& c : chosen_cases(names)) {
+  for (const VerifyCase& c : chosen_cases(names, all)) {
     bool remapped = true, mixed = true;
     for (const double cfl : cfls) {
       for (const int n : every) {

@@ -1,10 +1,9 @@
 // One split sweep of momentum on the dual mesh.
 //
-// Node p owns the shares w of the masses of its cells, M_p = sum w m. Inside cell c the mass that crosses
-// from its lower to its upper node along the axis is G_c = w_high F_low + w_low F_high, with F the face mass fluxes: node
-// masses then stay the sum of their shares exactly, whatever the flow. Velocity is carried by the upwind node's limited value
+// The masses that cross between nodes are those of remap/dual_flux. Velocity is carried by the upwind node's limited value
 // in the mass coordinate. Kinetic energy carried as its own scalar, less what the new velocities hold, is the loss.
 #include "core/rows.hpp"
+#include "remap/dual_flux.hpp"
 #include "remap/internal.hpp"
 #include "remap/limiter.hpp"
 
@@ -37,9 +36,9 @@ template <int Dim> class NodeSweep {
 public:
   NodeSweep(Mesh<Dim>& mesh, const Group<Dim>& group, const Settings& settings, RowField& loss, int axis, bool first)
       : m_(mesh), g_(group), s_(settings), loss_(loss), axis_(axis), first_(first), nodes_(mesh.grid.cells[0] + 1),
-        links_(nodes_ + (axis == 0 ? 1 : 0)) {
-    for (auto* v : {&flux_, &low_, &high_, &faces_low_, &faces_high_, &central_, &edge_, &lost_, &mass_rows_[0], &mass_rows_[1], &mass_rows_[2]}) {
-      v->assign(static_cast<std::size_t>(links_ + 4), 0.0);
+        dual_(mesh, group.cell_mass, group.mass_flux, axis) {
+    for (auto* v : {&central_, &edge_, &lost_}) {
+      v->assign(static_cast<std::size_t>(dual_.links() + 4), 0.0);
     }
   }
 
@@ -49,12 +48,11 @@ public:
     const Grid& g = m_.grid;
     const int r = g.node_row(j, k), stride = g.node_row_stride(axis_), shift = axis_ == 0 ? 1 : 0;
     const Span awake = links_of(r);
-    dual_fluxes(j, k, awake);
-    double* mass = out[0].data();
-    std::copy(flux_.begin() + awake.begin, flux_.begin() + awake.end, mass + awake.begin);
+    dual_.compute(j, k, awake);
+    const double *t = dual_.flux(), *central = central_.data(), *edge = edge_.data();
+    std::copy(t + awake.begin, t + awake.end, out[0].data() + awake.begin);
     std::fill(out[Dim + 1].begin() + awake.begin, out[Dim + 1].begin() + awake.end, 0.0);
     link_factors(r, stride, shift, awake);
-    const double *t = flux_.data(), *central = central_.data(), *edge = edge_.data();
     const double unlimited = s_.limit ? 0 : 1;
     for (std::size_t d = 0; d < Dim; ++d) {
       const RowField& u = g_.velocity[d];
@@ -163,8 +161,8 @@ private:
 
   /// What the links' masses say about rises of velocity along them; the same for every component.
   void link_factors(int r, int stride, int shift, Span links) {
-    const double *t = flux_.data(), *lo = before_, *mid = between_, *hi = after_;
-    const double *low = low_.data(), *high = high_.data();
+    const double *t = dual_.flux(), *lo = dual_.before(), *mid = dual_.between(), *hi = dual_.after();
+    const double *low = dual_.low(), *high = dual_.high();
     const double *held1 = g_.node_mass.row(r - stride) - shift, *held2 = g_.node_mass.row(r);
     double *central = central_.data(), *edge = edge_.data();
     const double hollow_share = m_.sliding != nullptr || m_.has_void ? edge_share : empty_share;
@@ -183,133 +181,6 @@ private:
       central[i] = hollow ? 0.0 : k.central;
       edge[i] = hollow ? 0.0 : k.edge;
     }
-  }
-
-  /// Dual mass flux of the links below the nodes of row (j, k), and the cell masses that their factors take. Both are
-  /// linear in what the columns of cells beside the link hold, so those are summed first, weighted by the shares across
-  /// the axis: S of masses by layer of cells, T of face fluxes by layer of faces. Then flux = w_high T_low + w_low T_high.
-  void dual_fluxes(int j, int k, Span links) {
-    const Grid& g = m_.grid;
-    const int n = g.cells[static_cast<std::size_t>(axis_)];
-    double *flux = flux_.data(), *low = low_.data(), *high = high_.data();
-    if (axis_ == 0) {
-      double *S = masses(1), *T = faces_low_.data();
-      const Span faces = {std::max(links.begin - 1, 0), std::min(links.end, n + 1)};
-      // Link i joins node i - 1 and node i through cell i - 1.
-      sum_columns(j, k, g_.cell_mass, -1, std::max(links.begin - 1, 1), std::min(links.end + 1, n + 1), S);
-      sum_columns(j, k, g_.mass_flux[0], 0, faces.begin, faces.end, T);
-      S[-1] = S[0] = S[1];
-      S[n + 2] = S[n + 1] = S[n];
-      const double* low0 = m_.low_share[0].data() + g.ghost[0];
-#pragma omp simd
-      for (int i = std::max(links.begin, 1); i < std::min(links.end, n + 1); ++i) {
-        const double w = low0[i - 1], rest = 1 - w;
-        low[i] = w;
-        high[i] = rest;
-        flux[i] = rest * T[i - 1] + w * T[i];
-      }
-      low[0] = high[0] = low[n + 1] = high[n + 1] = 0; // the boundary faces: no cell, no rise
-      flux[0] = T[0];
-      flux[n + 1] = T[n];
-      set_masses(S - 1, S, S + 1);
-      return;
-    }
-    const int at = axis_ == 1 ? j : k, here = at - 1; // the layer of cells that the links pass through
-    const auto layer = [&](int q) { return axis_ == 1 ? std::array<int, 2>{q, k} : std::array<int, 2>{j, q}; };
-    const auto masses_of = [&](int q, double* out) {
-      const auto [cj, ck] = layer(std::clamp(q, 0, n - 1));
-      sum_columns(cj, ck, g_.cell_mass, 0, links.begin, links.end, out);
-    };
-    const auto fluxes_of = [&](int q, std::vector<double>& out) {
-      const auto [cj, ck] = layer(std::clamp(q, 0, n));
-      sum_columns(cj, ck, g_.mass_flux[static_cast<std::size_t>(axis_)], 0, links.begin, links.end, out.data());
-    };
-    const bool follows = last_ == (axis_ == 1 ? std::array<int, 2>{j - 1, k} : std::array<int, 2>{j, k - 1});
-    if (follows && last_links_.holds(links)) { // the link below: most is known
-      std::swap(faces_low_, faces_high_);
-      std::swap(mass_rows_[0], mass_rows_[1]);
-      std::swap(mass_rows_[1], mass_rows_[2]);
-    } else {
-      fluxes_of(here, faces_low_);
-      masses_of(here - 1, masses(0));
-      masses_of(here, masses(1));
-    }
-    fluxes_of(here + 1, faces_high_);
-    masses_of(here + 1, masses(2));
-    last_ = {j, k};
-    last_links_ = links;
-    const bool outside = at == 0 || at == n + 1;
-    const double w = outside ? 1.0 : share_of(axis_, here, false), *T_low = faces_low_.data(), *T_high = faces_high_.data();
-    std::fill(low + links.begin, low + links.end, outside ? 0.0 : w);
-    std::fill(high + links.begin, high + links.end, outside ? 0.0 : 1 - w);
-#pragma omp simd
-    for (int i = links.begin; i < links.end; ++i) {
-      flux[i] = (1 - w) * T_low[i] + w * T_high[i];
-    }
-    set_masses(masses(0), masses(1), masses(2));
-  }
-
-  double* masses(std::size_t q) { return mass_rows_[q].data() + 1; }
-  void set_masses(const double* before, const double* between, const double* after) {
-    before_ = before;
-    between_ = between;
-    after_ = after;
-  }
-
-  /// out[i] for i in [first, end): sum over the columns of cells around link i of row (j, k), each by its share across the
-  /// axis, of the row's value at i + shift (and one column lower where the link has cells on both sides of axis 0). The
-  /// index along the sweep's own axis is taken as it is.
-  void sum_columns(int j, int k, const RowField& of, int shift, int first, int end, double* out) const {
-    const Grid& g = m_.grid;
-    std::fill(out + first, out + end, 0.0);
-    const int index[3] = {0, j, k};
-    for (int side = 0; side < (1 << (Dim - 1)); ++side) {
-      int cell[3] = {0, j, k}, bit = 0, column = 0;
-      double share = 1;
-      bool inside = true;
-      for (int axis = 0; axis < Dim; ++axis) {
-        if (axis == axis_) {
-          continue;
-        }
-        const bool lower = (side >> bit++ & 1) != 0; // the cell below the node along this axis
-        if (axis == 0) {
-          column = lower ? -1 : 0;
-          continue;
-        }
-        cell[axis] = index[axis] - (lower ? 1 : 0);
-        inside = inside && cell[axis] >= 0 && cell[axis] < g.cells[static_cast<std::size_t>(axis)];
-        share *= inside ? share_of(axis, cell[axis], lower) : 0.0;
-      }
-      if (!inside) {
-        continue;
-      }
-      const double* value = of.row(g.cell_row(cell[1], cell[2])) + shift;
-      if (axis_ == 0) {
-#pragma omp simd
-        for (int i = first; i < end; ++i) {
-          out[i] += share * value[i];
-        }
-        continue;
-      }
-      const double* low0 = m_.low_share[0].data() + g.ghost[0];
-      if (column < 0) {
-#pragma omp simd
-        for (int i = std::max(first, 1); i < end; ++i) {
-          out[i] += share * (1 - low0[i - 1]) * value[i - 1];
-        }
-      } else {
-#pragma omp simd
-        for (int i = first; i < std::min(end, g.cells[0]); ++i) {
-          out[i] += share * low0[i] * value[i];
-        }
-      }
-    }
-  }
-
-  /// Share of a cell's mass that goes to its upper (`high`) or lower node along an axis.
-  double share_of(int axis, int cell, bool high) const {
-    const double low = m_.low_share[static_cast<std::size_t>(axis)][static_cast<std::size_t>(cell + m_.grid.ghost[static_cast<std::size_t>(axis)])];
-    return high ? 1 - low : low;
   }
 
   void boundary_sums(int j, int k, const std::vector<double>* low, const std::vector<double>* high, int step, SlabSums& sums) {
@@ -348,12 +219,9 @@ private:
   RowField* next_mass_ = nullptr;
   int axis_;
   bool first_; ///< of the sweeps whose losses are returned together
-  int nodes_, links_;
-  std::vector<double> flux_, low_, high_, faces_low_, faces_high_, central_, edge_, lost_;
-  std::array<std::vector<double>, 3> mass_rows_; ///< S of three layers
-  const double *before_ = nullptr, *between_ = nullptr, *after_ = nullptr;
-  std::array<int, 2> last_ = {-9, -9}; ///< row of nodes whose links were the last
-  Span last_links_;                    ///< and which of them
+  int nodes_;
+  DualFlux<Dim> dual_;
+  std::vector<double> central_, edge_, lost_;
 };
 
 template <int Dim> void copy_awake_nodes(const Mesh<Dim>& m, const RowField& from, RowField& to, ThreadPool& pool) {

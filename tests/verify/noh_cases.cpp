@@ -196,7 +196,7 @@ void spherical_3d(VerifyReport& r) {
 void add_noh_cases(std::vector<VerifyCase>& cases) {
   cases.push_back({"noh_cylindrical", "Noh's cylindrical implosion in a planar quarter of 100 x 100 cells", cylindrical});
   cases.push_back({"noh_spherical_rz", "Noh's spherical implosion in RZ, 100 x 100 cells", spherical_rz});
-  cases.push_back({"noh_spherical_3d", "Noh's spherical implosion in an octant of 50^3 cells, reported", spherical_3d});
+  cases.push_back({"noh_spherical_3d", "Noh's spherical implosion in an octant of 50^3 cells, reported", spherical_3d, /*by_name=*/true});
 }
 
 } // namespace ballast::verify
