@@ -24,6 +24,7 @@ struct Numerics {
   double dt_initial = 0; ///< s, 0: a tenth of the stable step
   double dt_growth = 1.1;
   double dt_max = std::numeric_limits<double>::infinity();
+  double dt_min = 0; ///< s: a stable step below it is a failure
   double max_volume_change = 0.2; ///< of a cell in one step
   bool spall = true;
   bool sleeping = true; ///< what rests is passed over: the same bits, faster (ale/rest)

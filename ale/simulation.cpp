@@ -3,13 +3,30 @@
 #include "ale/rest.hpp"
 #include "ale/strength_update.hpp"
 #include "ale/traction.hpp"
+#include "core/error.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace ballast {
 
+namespace {
+
+/// A step that has collapsed would go on for ever.
+template <int Dim> void check_step(const Scene<Dim>& scene, const DtLimit& stable, const Clock& clock) {
+  if (stable.dt < scene.numerics.dt_min) {
+    const Block<Dim>& b = scene.blocks[static_cast<std::size_t>(stable.block)];
+    throw NumericalFailure(fmt::format("block {}, cell ({}, {}, {}), material {}: the stable step has fallen to {:.3g} s by {} at time {:.9g} s, below {:.3g} s (numerics.dt_min)",
+                                       b.name, stable.cell[0], stable.cell[1], stable.cell[2], contents(b, stable.cell), stable.dt, name_of(stable.cause), clock.time, scene.numerics.dt_min));
+  }
+}
+
+} // namespace
+
 template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
-  clock.choose(stable_dt(scene), scene.numerics);
+  const DtLimit stable = stable_dt(scene);
+  check_step(scene, stable, clock);
+  clock.choose(stable, scene.numerics);
   lagrange_step(scene, clock);
   for (Block<Dim>& block : scene.blocks) {
     const bool due = remap_due(block, clock.step, *scene.pool);

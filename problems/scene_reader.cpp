@@ -96,6 +96,7 @@ void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
   n.dt_initial = in.number("dt_initial", n.dt_initial);
   n.dt_growth = in.number("dt_growth", n.dt_growth);
   n.dt_max = in.number("dt_max", n.dt_max);
+  n.dt_min = in.number("dt_min", n.dt_min);
   n.spall = in.flag("spall");
   n.sleeping = in.flag("sleeping");
 }
@@ -244,6 +245,8 @@ SceneSpec read_scene(Deck& deck) {
   const Section top = read_section(deck, root, scene_keys::top());
   scene.title = top.text("title");
   scene.end_time = top.number("end_time", 0);
+  constexpr double hopeless = 1e-10; // of the run: with such steps it would not end
+  scene.numerics.dt_min = hopeless * scene.end_time;
   if (DeckNode* ambient = usable(root, "ambient")) {
     read_ambient(deck, *ambient, scene);
   }
