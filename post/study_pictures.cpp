@@ -22,7 +22,7 @@ constexpr std::size_t most_measures = 12;
 struct Run {
   std::vector<std::string> values;
   std::string label; // the values in one
-  double wall = 0;
+  double time = 0;   // of processors, all threads: what else the machine does matters least to it
   std::map<std::string, double> errors;
 };
 
@@ -50,7 +50,7 @@ Study read_study(const std::filesystem::path& folder) {
     s.values.push_back(v["values"].get<std::vector<std::string>>());
   }
   for (const auto& r : j["runs"]) {
-    Run run{r["values"].get<std::vector<std::string>>(), "", r.value("wall_seconds", 0.0), {}};
+    Run run{r["values"].get<std::vector<std::string>>(), "", r.value("cpu_seconds", 0.0) > 0 ? r.value("cpu_seconds", 0.0) : r.value("wall_seconds", 0.0), {}};
     if (r.value("ended", "") != "finished" || run.values.size() != s.varied.size())
       continue;
     for (const std::string& value : run.values)
@@ -85,11 +85,12 @@ struct LogAxis {
 LogAxis log_axis(double least, double most) {
   const double air = std::max(0.08 * std::log10(most / least), 0.05);
   LogAxis axis{std::log10(least) - air, std::log10(most) + air, {}};
-  const bool wide = axis.high - axis.low > 2.5;
+  const std::vector<double> decades = {1}, some = {1, 2, 5}, many = {1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9};
+  const double width = axis.high - axis.low;
   for (double decade = std::floor(axis.low); decade <= axis.high; ++decade)
-    for (const double digit : {1.0, 2.0, 5.0}) {
+    for (const double digit : width > 2.5 ? decades : width > 0.9 ? some : many) {
       const double at = decade + std::log10(digit);
-      if (at >= axis.low && at <= axis.high && (digit == 1 || !wide))
+      if (at >= axis.low && at <= axis.high)
         axis.ticks.emplace_back(at, fmt::format("{:.3g}", std::pow(10, at)));
     }
   return axis;
@@ -137,32 +138,32 @@ std::string file_of(const std::string& start, const std::string& name) {
   return out + ".png";
 }
 
-/// Error against wall time; a run that none beats in both is on the front.
+/// Error against processor time; a run that none beats in both is on the front.
 void draw_front(const Study& study, const std::string& measure, const std::filesystem::path& path) {
   std::vector<const Run*> runs;
   for (const Run& run : study.runs)
-    if (const auto at = run.errors.find(measure); at != run.errors.end() && at->second > 0 && run.wall > 0)
+    if (const auto at = run.errors.find(measure); at != run.errors.end() && at->second > 0 && run.time > 0)
       runs.push_back(&run);
-  std::sort(runs.begin(), runs.end(), [](const Run* a, const Run* b) { return a->wall < b->wall; });
+  std::sort(runs.begin(), runs.end(), [](const Run* a, const Run* b) { return a->time < b->time; });
   const auto error = [&](const Run* r) { return r->errors.at(measure); };
   const auto [least, most] = std::minmax_element(runs.begin(), runs.end(), [&](auto* a, auto* b) { return error(a) < error(b); });
-  const LogPanel panel{{170, 96, 900, 620}, log_axis(runs.front()->wall, runs.back()->wall), log_axis(error(*least), error(*most))};
+  const LogPanel panel{{170, 96, 900, 620}, log_axis(runs.front()->time, runs.back()->time), log_axis(error(*least), error(*most))};
   double widest = 120;
   for (const Run* run : runs)
     widest = std::max(widest, Canvas::text_width(run->label, {.size = 18}) + 40);
   Canvas canvas(static_cast<int>(panel.box.right() + widest), 830);
-  panel.draw(canvas, "wall time [s]", "relative error");
+  panel.draw(canvas, "processor time, all threads [s]", "relative error");
   std::vector<Point> front;
   double best = std::numeric_limits<double>::infinity();
   for (const Run* run : runs)
     if (error(run) < best) {
       best = error(run);
-      front.push_back(panel.pixel(std::log10(run->wall), std::log10(best)));
+      front.push_back(panel.pixel(std::log10(run->time), std::log10(best)));
     }
   canvas.polyline(front, 2.6, line_colour(0));
   best = std::numeric_limits<double>::infinity();
   for (const Run* run : runs) {
-    const Point at = panel.pixel(std::log10(run->wall), std::log10(error(run)));
+    const Point at = panel.pixel(std::log10(run->time), std::log10(error(run)));
     const bool on_front = error(run) < best;
     best = std::min(best, error(run));
     dot(canvas, at, 7, on_front ? line_colour(0) : grey);
@@ -202,7 +203,7 @@ void draw_varied(const Study& study, std::size_t key, const std::string& measure
     const auto place = static_cast<std::size_t>(std::find(values.begin(), values.end(), run.values[key]) - values.begin());
     lines[others].emplace_back(numbers ? std::log10(at[place]) : at[place], &run);
     const auto found = run.errors.find(measure);
-    const double both[2] = {found == run.errors.end() ? 0 : found->second, run.wall};
+    const double both[2] = {found == run.errors.end() ? 0 : found->second, run.time};
     for (std::size_t q = 0; q < 2; ++q)
       if (both[q] > 0)
         least[q] = std::min(least[q], both[q]), most[q] = std::max(most[q], both[q]);
@@ -223,7 +224,7 @@ void draw_varied(const Study& study, std::size_t key, const std::string& measure
   for (const auto& [name, runs] : lines)
     widest = std::max(widest, Canvas::text_width(name, {.size = 20}) + 100);
   Canvas canvas(static_cast<int>(1720 + widest), 830);
-  const std::string names[2] = {"relative error", "wall time [s]"};
+  const std::string names[2] = {"relative error", "processor time, all threads [s]"};
   for (std::size_t q = 0; q < 2; ++q) {
     if (!(most[q] > 0))
       continue;
@@ -235,7 +236,7 @@ void draw_varied(const Study& study, std::size_t key, const std::string& measure
       std::vector<Point> points;
       for (const auto& [place, run] : runs) {
         const auto found = run->errors.find(measure);
-        const double y = q == 1 ? run->wall : found == run->errors.end() ? 0 : found->second;
+        const double y = q == 1 ? run->time : found == run->errors.end() ? 0 : found->second;
         if (y > 0) {
           points.push_back(panel.pixel(place, std::log10(y)));
           dot(canvas, points.back(), 6, line_colour(k));

@@ -27,7 +27,10 @@ keep() {
   rm -rf "$to"
   mkdir -p "$to"
   cp "$runs/$2/$1/study.md" "$runs/$2/$1/study.csv" "$to/"
-  cp "$runs/$2/$1"/pictures/front_*.png "$to/" 2>/dev/null || true
+  local picture
+  for picture in "$runs/$2/$1"/pictures/{front_L1_*,front_bullet_velocity*,front_target_cavity*,by_mesh*_bullet_velocity*}.png; do
+    [[ ! -e $picture ]] || cp "$picture" "$to/"
+  done
 }
 
 # run STUDY NAME DECK ARGUMENTS...: one `ballast study`; its exit status says whether all rows are there, failures included.
@@ -35,7 +38,7 @@ run() {
   local study=$1 name=$2 deck=$3
   shift 3
   printf '\n== %s: %s\n' "$study" "$name"
-  "$ballast" study "$deck" --out "$runs/$study/$name" "$@"
+  "$ballast" study "$deck" --out "$runs/$study/$name" "$@" || printf '%s: rows are missing\n' "$name"
   keep "$name" "$study"
 }
 
@@ -75,8 +78,8 @@ scene_needs() {
     --case "asleep off: numerics.sleeping=false" \
     --case 'uniform: mesh.r.to="64 mm"; mesh.r.size="0.25 mm"; mesh.z.to="148 mm"; mesh.z.size="0.25 mm"' \
     --case "window: deck=problems/m80_window.toml; mesh.refine=$(scaled 0.5)" \
-    --case 'near, absorbing: mesh.r.to=["8 mm", "30 mm"]; mesh.r.upper="absorbing"' \
-    --case 'near, free: mesh.r.to=["8 mm", "30 mm"]; mesh.r.upper="free"' \
+    --case 'near, absorbing: mesh.r.to=["8 mm", "45 mm"]; mesh.r.upper="absorbing"' \
+    --case 'near, free: mesh.r.to=["8 mm", "45 mm"]; mesh.r.upper="free"' \
     --case 'tipton: numerics.closure="tipton"' \
     --case 'equal strain: numerics.closure="equal_strain"' \
     --case 'energy return on: numerics.energy_return="on"' \
