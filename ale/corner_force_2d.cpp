@@ -135,12 +135,20 @@ half_step(const ForceRows<2>& in, const ForceCoefficients& c, int i, HalfStepQua
     }
   }
   if constexpr (extra == Extra::subzones) {
-    double merit = in.damped_density[i] > 0 ? c.subzonal : 0.0;
+    const double all = c.subzonal, damped = in.damped_density[i];
+    double merit = damped > 0 ? all : 0.0;
     if constexpr (Strength) {
-      merit = in.flow_stress[i] > 0 ? 0.0 : merit;
+      const double flow = in.flow_stress[i];
+      merit = flow > 0 ? 0.0 : merit;
     }
     const double stiffness = merit * in.modulus[i] * h.volume / area;
-    add_subzonal_forces(quad_modes(q.x, q.y), stiffness, in.skew[0][i], in.skew[1][i], h.fx, h.fy);
+    const SubzonalForce f = subzonal_force(quad_modes(q.x, q.y), stiffness, in.skew[0][i], in.skew[1][i]);
+#pragma GCC unroll 4
+    for (int p = 0; p < 4; ++p) {
+      const double s = p == 1 || p == 2 ? 1.0 : -1.0, z = p > 1 ? 1.0 : -1.0;
+      h.fx[p] += s * f.ix + z * f.jx + s * z * f.skew_x;
+      h.fy[p] += s * f.iy + z * f.jy + s * z * f.skew_y;
+    }
   }
 }
 

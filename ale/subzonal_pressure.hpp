@@ -25,29 +25,26 @@ struct QuadModes {
           (x[0] - x[3]) + (x[2] - x[1]), (y[0] - y[3]) + (y[2] - y[1])};
 }
 
-/// Adds the forces (N) of a cell's subzones; `stiffness` merit K times depth (N/m), a0, b0 of the first mesh.
-[[gnu::always_inline]] inline void
-add_subzonal_forces(const QuadModes& m, double stiffness, double a0, double b0, double (&fx)[4], double (&fy)[4]) {
-  const double a = m.along_i(), b = m.along_j();
-  double sum = 0, pi = 0, pj = 0;
-#pragma GCC unroll 4
-  for (int p = 0; p < 4; ++p) {
-    const double s = p == 1 || p == 2 ? 1.0 : -1.0, z = p > 1 ? 1.0 : -1.0, v = 1 + (s * a + z * b);
-    const double dp = stiffness * (1.0 / 16) * (s * (a0 - a) + z * (b0 - b)) / (v > 0.3 ? v : 0.3);
-    sum += dp;
-    pi += 0.5 * s * dp;
-    pj += 0.5 * z * dp;
-  }
+/// Forces (N) of a cell's subzones on its modes: corner p feels (s, s', s s').(i, j, skew), s and s' its signs along i and j.
+struct SubzonalForce {
+  double ix, iy, jx, jy, skew_x, skew_y;
+};
+
+/// dp / K of the quarter with signs s, z, at `a`, `b` beyond the first mesh.
+[[gnu::always_inline]] inline double quarter_pressure(double s, double z, double a, double b, double da, double db) {
+  const double v = 1 + (s * a + z * b);
+  return -(s * da + z * db) / (v > 0.3 ? v : 0.3);
+}
+
+/// `stiffness` merit K times depth (N/m); a0, b0 of the first mesh.
+[[gnu::always_inline]] inline SubzonalForce subzonal_force(const QuadModes& m, double stiffness, double a0, double b0) {
+  const double a = m.along_i(), b = m.along_j(), da = a - a0, db = b - b0, k = stiffness * (1.0 / 16);
+  const double p0 = k * quarter_pressure(-1, -1, a, b, da, db), p1 = k * quarter_pressure(1, -1, a, b, da, db);
+  const double p2 = k * quarter_pressure(1, 1, a, b, da, db), p3 = k * quarter_pressure(-1, 1, a, b, da, db);
   // 16 sum dp V = sum t0 x t1 + pi t0 x h + pj h x t1, by t0, t1 and h.
-  const double wx = sum * m.t1x + pi * m.hx, wy = sum * m.t1y + pi * m.hy;
-  const double zx = sum * m.t0x + pj * m.hx, zy = sum * m.t0y + pj * m.hy;
-  const double kx = pj * m.t1y - pi * m.t0y, ky = pi * m.t0x - pj * m.t1x;
-#pragma GCC unroll 4
-  for (int p = 0; p < 4; ++p) {
-    const double s = p == 1 || p == 2 ? 1.0 : -1.0, z = p > 1 ? 1.0 : -1.0;
-    fx[p] += s * wy - z * zy + s * z * kx;
-    fy[p] += z * zx - s * wx + s * z * ky;
-  }
+  const double sum = (p0 + p2) + (p1 + p3), pi = 0.5 * ((p1 + p2) - (p0 + p3)), pj = 0.5 * ((p2 + p3) - (p0 + p1));
+  return {sum * m.t1y + pi * m.hy, -(sum * m.t1x + pi * m.hx), -(sum * m.t0y + pj * m.hy), sum * m.t0x + pj * m.hx,
+          pj * m.t1y - pi * m.t0y, pi * m.t0x - pj * m.t1x};
 }
 
 } // namespace ballast
