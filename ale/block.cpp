@@ -1,5 +1,6 @@
 #include "ale/block.hpp"
 
+#include "ale/subzonal_pressure.hpp"
 #include "core/rows.hpp"
 #include "core/hex_geometry.hpp"
 
@@ -191,6 +192,28 @@ void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lin
   b.target_volume = b.volume;
 }
 
+template <int Dim> void mark_subzones(Block<Dim>& b) {
+  if constexpr (Dim == 2) {
+    if (b.motion.remaps()) {
+      return;
+    }
+    b.skew.fill(RowField::of_cells(b.grid));
+    for (int j = 0; j < b.grid.cells[1]; ++j) {
+      const int low = b.grid.node_row(j, 0), high = b.grid.node_row(j + 1, 0), r = b.grid.cell_row(j, 0);
+      for (int i = 0; i < b.grid.cells[0]; ++i) {
+        double x[2][4];
+        for (std::size_t d = 0; d < 2; ++d) {
+          const double *x0 = b.target[d].row(low), *x1 = b.target[d].row(high);
+          x[d][0] = x0[i], x[d][1] = x0[i + 1], x[d][2] = x1[i + 1], x[d][3] = x1[i];
+        }
+        const QuadModes m = quad_modes(x[0], x[1]);
+        b.skew[0].row(r)[i] = m.along_i();
+        b.skew[1].row(r)[i] = m.along_j();
+      }
+    }
+  }
+}
+
 template <int Dim> void target_volumes(Block<Dim>& b, ThreadPool& pool) {
   const Grid& g = b.grid;
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
@@ -302,6 +325,8 @@ void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, in
 
 template void allocate_block<2>(Block<2>&, const std::array<std::vector<double>, 3>&);
 template void allocate_block<3>(Block<3>&, const std::array<std::vector<double>, 3>&);
+template void mark_subzones<2>(Block<2>&);
+template void mark_subzones<3>(Block<3>&);
 template void target_volumes<2>(Block<2>&, ThreadPool&);
 template void target_volumes<3>(Block<3>&, ThreadPool&);
 template void compute_node_mass<2>(Block<2>&, ThreadPool&);

@@ -126,6 +126,7 @@ template <int Dim> struct Block {
   /// Of the cell, likewise: shear modulus (mixed: harmonic mean, 0 beside void or a fluid), sum of fraction x flow stress.
   RowField shear, flow_stress;
   std::array<RowField, Dim> strain_rate, length, viscosity; ///< along each logical axis
+  std::array<RowField, 2> skew; ///< of the first mesh's cells (ale/subzonal_pressure); empty unless asked for
   RowField stable_step;       ///< s, that each cell allows for a CFL number of one
   std::vector<int> row_least; ///< by row, the cell that allows the least
   std::array<RowField, Dim> swept, mass_flux;               ///< faces, at the cell above them
@@ -194,6 +195,9 @@ void allocate_block(Block<Dim>& block, const std::array<std::vector<double>, 3>&
 /// Volumes (m3) of some cells of a row on node positions `x`.
 void cell_volumes(const Block<2>& b, const std::array<RowField, 2>& x, int j, int k, Span cells, double* volume);
 void cell_volumes(const Block<3>& b, const std::array<RowField, 3>& x, int j, int k, Span cells, double* volume);
+
+/// Skew of the first mesh's cells, where the block keeps that mesh; 3D blocks have none.
+template <int Dim> void mark_subzones(Block<Dim>& block);
 
 /// Volumes of the target mesh, ghosts too.
 template <int Dim> void target_volumes(Block<Dim>& block, ThreadPool& pool);

@@ -8,6 +8,7 @@
 // void or a fluid have no shear modulus: there the tangential stress stays that of the start.
 // Viscosity acts along the cell's mid lines t_d: sigma = -sum q_d t_d t_d^T. (Along the normals of the mid
 // surfaces a flat, sheared cell would feel its long axis' viscosity across its short one: unstable.)
+// By option: q's coefficient on shear and hoop compression (ale/shear_viscosity), pressures of subzones (ale/subzonal_pressure).
 // Hourglass: Flanagan-Belytschko, viscous, on the modes that a linear velocity field does not excite.
 #pragma once
 
@@ -23,7 +24,8 @@ template <int Dim> struct ForceRows {
   const double *pressure, *modulus, *volume, *damped_density, *wave_speed;
   const double* stress[stress_components<Dim>]; ///< null without strength
   const double *shear, *flow_stress; ///< null without strength
-  const double* viscosity[Dim];
+  const double *viscosity[Dim], *rate[Dim];
+  const double* skew[2]; ///< of the first mesh (ale/subzonal_pressure), null without
 
   ForceRows(const Block<Dim>& block, int j, int k);
 
@@ -36,11 +38,15 @@ template <int Dim> struct ForceRows {
         at.u[d][l] += i;
       }
       at.viscosity[d] += i;
+      at.rate[d] += i;
     }
     for (const double** row : {&at.pressure, &at.modulus, &at.volume, &at.damped_density, &at.wave_speed, &at.shear, &at.flow_stress}) {
       *row += *row != nullptr ? i : 0;
     }
     for (const double*& row : at.stress) {
+      row += row != nullptr ? i : 0;
+    }
+    for (const double*& row : at.skew) {
       row += row != nullptr ? i : 0;
     }
     return at;
@@ -86,6 +92,8 @@ template <int Dim> struct WorkRows {
 struct ForceCoefficients {
   double dt = 0;
   double hourglass = 0.03; ///< dimensionless (LULESH: 0.01 * 3)
+  double shear_q = 0; ///< part of q's coefficient that resists shear (ale/shear_viscosity)
+  double subzonal = 0; ///< merit factor (ale/subzonal_pressure); 2D blocks that keep their first mesh
 };
 
 /// Forces of cells [0, count) of a row.

@@ -1,4 +1,6 @@
 #include "ale/corner_force.hpp"
+#include "ale/shear_viscosity.hpp"
+#include "ale/subzonal_pressure.hpp"
 #include "core/hex_geometry.hpp"
 
 #include <cmath>
@@ -14,6 +16,8 @@ template <> ForceRows<2>::ForceRows(const Block<2>& b, int j, int k) {
       u[d][line] = b.velocity[d].row(g.node_row(j + line, k));
     }
     viscosity[d] = b.viscosity[d].row(g.cell_row(j, k));
+    rate[d] = b.strain_rate[d].row(g.cell_row(j, k));
+    skew[d] = b.skew[d].empty() ? nullptr : b.skew[d].row(g.cell_row(j, k));
   }
   const int r = g.cell_row(j, k);
   pressure = b.pressure.row(r);
@@ -30,13 +34,16 @@ template <> ForceRows<2>::ForceRows(const Block<2>& b, int j, int k) {
 
 namespace {
 
+/// What acts beside pressure, strength, q and the viscous hourglass control.
+enum class Extra { none, shear_q, subzones }; // subzones: and shear_q
+
 template <bool Axisymmetric> struct HalfStepQuad {
   double sx[4], sy[4], hoop[4], fx[4], fy[4];
   double volume, compression;
 };
 
 /// All of a cell at the half step. Inlined into both row loops.
-template <bool Axisymmetric, bool Strength>
+template <bool Axisymmetric, bool Strength, Extra extra>
 [[gnu::always_inline]] inline void
 half_step(const ForceRows<2>& in, const ForceCoefficients& c, int i, HalfStepQuad<Axisymmetric>& h) {
   const double half = 0.5 * c.dt;
@@ -63,8 +70,8 @@ half_step(const ForceRows<2>& in, const ForceCoefficients& c, int i, HalfStepQua
   double yy = -p_half - q0 * t0y * t0y - q1 * t1y * t1y;
   double xy = -q0 * t0x * t0y - q1 * t1x * t1y;
   double tt = -p_half;
-  if constexpr (Strength) {
-    double gxx = 0, gxy = 0, gyy = 0, gtt = 0;
+  double gxx = 0, gxy = 0, gyy = 0, gtt = 0;
+  if constexpr (Strength || extra != Extra::none) {
 #pragma GCC unroll 4
     for (int p = 0; p < 4; ++p) {
       const double ax = Axisymmetric ? h.sx[p] - h.hoop[p] : h.sx[p];
@@ -75,6 +82,22 @@ half_step(const ForceRows<2>& in, const ForceCoefficients& c, int i, HalfStepQua
         gtt += ux[p] * h.hoop[p];
       }
     }
+  }
+  if constexpr (extra != Extra::none) {
+    const double s0 = t0x * t0x + t0y * t0y, s1 = t1x * t1x + t1y * t1y;
+    const double part = in.damped_density[i] > 0 ? c.shear_q : 0.0; // where two velocities meet shear is sliding
+    const double mu0 = viscous_coefficient(in.viscosity[0][i], in.rate[0][i]), mu1 = viscous_coefficient(in.viscosity[1][i], in.rate[1][i]);
+    const double shear = t0x * gxx * t1x + 0.5 * gxy * (t0x * t1y + t0y * t1x) + t0y * gyy * t1y; // t0.D.t1 V
+    const double tau = 2 * part * shear_coefficient(mu0, mu1, s0, s1) * shear / (h.volume * s0 * s1);
+    xx += 2 * tau * t0x * t1x;
+    yy += 2 * tau * t0y * t1y;
+    xy += tau * (t0x * t1y + t0y * t1x);
+    if constexpr (Axisymmetric) {
+      const double mu = mu0 * t0x * t0x / s0 + mu1 * t1x * t1x / s1, most = q0 * t0x * t0x + q1 * t1x * t1x; // their radial parts
+      tt -= part * hoop_viscosity(mu, gtt / h.volume, most);
+    }
+  }
+  if constexpr (Strength) {
     const double mean = (gxx + gyy + gtt) / 3, g = in.shear[i] * c.dt / h.volume;
     const double sxx = in.stress[0][i] + g * (gxx - mean), syy = in.stress[1][i] + g * (gyy - mean);
     const double sxy = in.stress[2][i] + 0.5 * g * gxy;
@@ -111,9 +134,25 @@ half_step(const ForceRows<2>& in, const ForceCoefficients& c, int i, HalfStepQua
       h.fx[p] -= tt * h.hoop[p];
     }
   }
+  if constexpr (extra == Extra::subzones) {
+    const double all = c.subzonal, damped = in.damped_density[i];
+    double merit = damped > 0 ? all : 0.0;
+    if constexpr (Strength) {
+      const double flow = in.flow_stress[i];
+      merit = flow > 0 ? 0.0 : merit;
+    }
+    const double stiffness = merit * in.modulus[i] * h.volume / area;
+    const SubzonalForce f = subzonal_force(quad_modes(q.x, q.y), stiffness, in.skew[0][i], in.skew[1][i]);
+#pragma GCC unroll 4
+    for (int p = 0; p < 4; ++p) {
+      const double s = p == 1 || p == 2 ? 1.0 : -1.0, z = p > 1 ? 1.0 : -1.0;
+      h.fx[p] += s * f.ix + z * f.jx + s * z * f.skew_x;
+      h.fy[p] += s * f.iy + z * f.jy + s * z * f.skew_y;
+    }
+  }
 }
 
-template <bool Axisymmetric, bool Strength>
+template <bool Axisymmetric, bool Strength, Extra extra>
 void force_row(const ForceRows<2>& in, const ForceCoefficients& c, int count, const CornerRows<2>& out) {
   double* f[4][2];
   for (int p = 0; p < 4; ++p) {
@@ -123,7 +162,7 @@ void force_row(const ForceRows<2>& in, const ForceCoefficients& c, int count, co
 #pragma omp simd
   for (int i = 0; i < count; ++i) {
     HalfStepQuad<Axisymmetric> h;
-    half_step<Axisymmetric, Strength>(in, c, i, h);
+    half_step<Axisymmetric, Strength, extra>(in, c, i, h);
 #pragma GCC unroll 4
     for (int p = 0; p < 4; ++p) {
       f[p][0][i] = h.fx[p];
@@ -132,7 +171,7 @@ void force_row(const ForceRows<2>& in, const ForceCoefficients& c, int count, co
   }
 }
 
-template <bool Axisymmetric, bool Strength>
+template <bool Axisymmetric, bool Strength, Extra extra>
 void work_row(const ForceRows<2>& in,
               const double* const (&next)[2][2],
               const ForceCoefficients& c,
@@ -141,7 +180,7 @@ void work_row(const ForceRows<2>& in,
 #pragma omp simd
   for (int i = 0; i < count; ++i) {
     HalfStepQuad<Axisymmetric> h;
-    half_step<Axisymmetric, Strength>(in, c, i, h);
+    half_step<Axisymmetric, Strength, extra>(in, c, i, h);
     double swept = 0, work = 0, g[5] = {0, 0, 0, 0, 0};
 #pragma GCC unroll 4
     for (int p = 0; p < 4; ++p) {
@@ -174,13 +213,23 @@ void work_row(const ForceRows<2>& in,
   }
 }
 
-template <class Function> void dispatch(const Block<2>& b, Function&& f) {
-  using std::false_type, std::true_type;
-  if (b.axisymmetric) {
-    b.any_strength() ? f(true_type{}, true_type{}) : f(true_type{}, false_type{});
+template <class Function> void dispatch(const ForceCoefficients& c, Function&& f) {
+  if (c.subzonal > 0) {
+    f(std::integral_constant<Extra, Extra::subzones>{});
   } else {
-    b.any_strength() ? f(false_type{}, true_type{}) : f(false_type{}, false_type{});
+    c.shear_q > 0 ? f(std::integral_constant<Extra, Extra::shear_q>{}) : f(std::integral_constant<Extra, Extra::none>{});
   }
+}
+
+template <class Function> void dispatch(const Block<2>& b, const ForceCoefficients& c, Function&& f) {
+  using std::false_type, std::true_type;
+  dispatch(c, [&](auto extra) {
+    if (b.axisymmetric) {
+      b.any_strength() ? f(true_type{}, true_type{}, extra) : f(true_type{}, false_type{}, extra);
+    } else {
+      b.any_strength() ? f(false_type{}, true_type{}, extra) : f(false_type{}, false_type{}, extra);
+    }
+  });
 }
 
 } // namespace
@@ -191,8 +240,8 @@ void corner_forces<2>(const Block<2>& block,
                       const ForceCoefficients& c,
                       int count,
                       const CornerRows<2>& out) {
-  dispatch(block, [&](auto axisymmetric, auto strength) {
-    force_row<axisymmetric.value, strength.value>(in, c, count, out);
+  dispatch(block, c, [&](auto axisymmetric, auto strength, auto extra) {
+    force_row<axisymmetric.value, strength.value, extra.value>(in, c, count, out);
   });
 }
 
@@ -203,8 +252,8 @@ void corner_work<2>(const Block<2>& block,
                     const ForceCoefficients& c,
                     int count,
                     const WorkRows<2>& out) {
-  dispatch(block, [&](auto axisymmetric, auto strength) {
-    work_row<axisymmetric.value, strength.value>(in, next, c, count, out);
+  dispatch(block, c, [&](auto axisymmetric, auto strength, auto extra) {
+    work_row<axisymmetric.value, strength.value, extra.value>(in, next, c, count, out);
   });
 }
 

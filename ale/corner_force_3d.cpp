@@ -1,7 +1,9 @@
 #include "ale/corner_force.hpp"
+#include "ale/shear_viscosity.hpp"
 #include "core/hex_geometry.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 namespace ballast {
 
@@ -15,7 +17,9 @@ template <> ForceRows<3>::ForceRows(const Block<3>& b, int j, int k) {
       u[d][line] = b.velocity[d].row(nodes);
     }
     viscosity[d] = b.viscosity[d].row(r);
+    rate[d] = b.strain_rate[d].row(r);
   }
+  skew[0] = skew[1] = nullptr;
   pressure = b.pressure.row(r);
   modulus = b.modulus.row(r);
   volume = b.volume.row(r);
@@ -38,7 +42,7 @@ struct HalfStepHex {
   double volume, compression;
 };
 
-template <bool Strength>
+template <bool Strength, bool ShearQ>
 [[gnu::always_inline]] inline void
 half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex& h) {
   const double half = 0.5 * c.dt;
@@ -90,6 +94,26 @@ half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex
     yz -= q * ay * az;
     xz -= q * ax * az;
   }
+  if constexpr (ShearQ) {
+    const double part = in.damped_density[i] > 0 ? c.shear_q / h.volume : 0.0; // where two velocities meet shear is sliding
+#pragma GCC unroll 3
+    for (int d = 0; d < 3; ++d) {
+      const int o = d == 2 ? 0 : d + 1;
+      const double ax = along[d][0], ay = along[d][1], az = along[d][2], bx = along[o][0], by = along[o][1], bz = along[o][2];
+      const double s0 = ax * ax + ay * ay + az * az, s1 = bx * bx + by * by + bz * bz;
+      const double mu = shear_coefficient(viscous_coefficient(in.viscosity[d][i], in.rate[d][i]),
+                                          viscous_coefficient(in.viscosity[o][i], in.rate[o][i]), s0, s1);
+      const double vx = 2 * lxx * bx + (lxy + lyx) * by + (lxz + lzx) * bz, vy = (lxy + lyx) * bx + 2 * lyy * by + (lyz + lzy) * bz;
+      const double vz = (lxz + lzx) * bx + (lyz + lzy) * by + 2 * lzz * bz;
+      const double tau = part * mu * (ax * vx + ay * vy + az * vz) / (s0 * s1);
+      xx += 2 * tau * ax * bx;
+      yy += 2 * tau * ay * by;
+      zz += 2 * tau * az * bz;
+      xy += tau * (ax * by + ay * bx);
+      yz += tau * (ay * bz + az * by);
+      xz += tau * (ax * bz + az * bx);
+    }
+  }
   if constexpr (Strength) {
     const double mean = (lxx + lyy + lzz) / 3, gm = in.shear[i] * c.dt / h.volume;
     const double sxx = in.stress[0][i] + gm * (lxx - mean), syy = in.stress[1][i] + gm * (lyy - mean);
@@ -140,14 +164,14 @@ half_step(const ForceRows<3>& in, const ForceCoefficients& c, int i, HalfStepHex
   }
 }
 
-template <bool Strength>
+template <bool Strength, bool ShearQ>
 void force_row(const ForceRows<3>& rows, const ForceCoefficients& c, int count, const CornerRows<3>& rows_out) {
   const ForceRows<3> in = rows;
   const CornerRows<3> out = rows_out;
 #pragma omp simd
   for (int i = 0; i < count; ++i) {
     HalfStepHex h;
-    half_step<Strength>(in, c, i, h);
+    half_step<Strength, ShearQ>(in, c, i, h);
 #pragma GCC unroll 8
     for (int p = 0; p < 8; ++p) {
       out.f[p][0][i] = h.fx[p];
@@ -157,7 +181,7 @@ void force_row(const ForceRows<3>& rows, const ForceCoefficients& c, int count, 
   }
 }
 
-template <bool Strength>
+template <bool Strength, bool ShearQ>
 void work_row(const ForceRows<3>& rows,
               const double* const (&next)[3][4],
               const ForceCoefficients& c,
@@ -168,7 +192,7 @@ void work_row(const ForceRows<3>& rows,
 #pragma omp simd
   for (int i = 0; i < count; ++i) {
     HalfStepHex h;
-    half_step<Strength>(in, c, i, h);
+    half_step<Strength, ShearQ>(in, c, i, h);
     double swept = 0, work = 0, g[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
 #pragma GCC unroll 8
     for (int p = 0; p < 8; ++p) {
@@ -203,6 +227,15 @@ void work_row(const ForceRows<3>& rows,
   }
 }
 
+template <class Function> void dispatch(const Block<3>& b, const ForceCoefficients& c, Function&& f) {
+  using std::false_type, std::true_type;
+  if (c.shear_q > 0) {
+    b.any_strength() ? f(true_type{}, true_type{}) : f(false_type{}, true_type{});
+  } else {
+    b.any_strength() ? f(true_type{}, false_type{}) : f(false_type{}, false_type{});
+  }
+}
+
 } // namespace
 
 template <>
@@ -211,7 +244,7 @@ void corner_forces<3>(const Block<3>& block,
                       const ForceCoefficients& c,
                       int count,
                       const CornerRows<3>& out) {
-  block.any_strength() ? force_row<true>(in, c, count, out) : force_row<false>(in, c, count, out);
+  dispatch(block, c, [&](auto strength, auto shear_q) { force_row<strength.value, shear_q.value>(in, c, count, out); });
 }
 
 template <>
@@ -221,8 +254,7 @@ void corner_work<3>(const Block<3>& block,
                     const ForceCoefficients& c,
                     int count,
                     const WorkRows<3>& out) {
-  block.any_strength() ? work_row<true>(in, next, c, count, out)
-                       : work_row<false>(in, next, c, count, out);
+  dispatch(block, c, [&](auto strength, auto shear_q) { work_row<strength.value, shear_q.value>(in, next, c, count, out); });
 }
 
 } // namespace ballast

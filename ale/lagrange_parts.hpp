@@ -10,8 +10,8 @@
 namespace ballast {
 
 /// The viscous hourglass term damps a 3D mode by 64 x coefficient x CFL a step: explicit, so below 2.
-inline ForceCoefficients force_coefficients(const Numerics& n, double dt) {
-  return {dt, std::min(n.hourglass, 0.03 / n.cfl)};
+template <int Dim> ForceCoefficients force_coefficients(const Block<Dim>& b, const Numerics& n, double dt) {
+  return {dt, std::min(n.hourglass, 0.03 / n.cfl), n.shear_q, b.skew[0].empty() ? 0.0 : n.subzonal_pressure};
 }
 
 /// What boundaries did to the block in a step: work (J) and impulse (kg m/s).

@@ -198,7 +198,7 @@ template <int Dim>
 BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
   const Grid& g = b.grid;
   const int planes = g.slabs() + 1;
-  const ForceCoefficients c = force_coefficients(scene.numerics, dt);
+  const ForceCoefficients c = force_coefficients(b, scene.numerics, dt);
   const bool absorbs = b.boundary.any(BoundaryKind::absorbing);
   std::vector<BoundaryEffect> effects(static_cast<std::size_t>(planes));
   parallel_awake(*scene.pool, &b.awake, planes, [&](int begin, int end, int) {

@@ -199,7 +199,7 @@ template <int Dim> Span restless(const Block<Dim>& b, int j, int k, bool spall) 
 
 template <int Dim> bool may_sleep(const Block<Dim>& b) {
   const bool stands = b.motion.policy == MotionPolicy::lagrangian || b.motion.policy == MotionPolicy::eulerian;
-  return stands && !b.boundary.any(BoundaryKind::inflow);
+  return stands && b.skew[0].empty() && !b.boundary.any(BoundaryKind::inflow);
 }
 
 } // namespace

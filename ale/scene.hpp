@@ -19,6 +19,8 @@ struct Numerics {
   double quadratic_q = 1.0; ///< on Kuropatenko's (gamma + 1)/4 taken as 2/3, see ale/viscosity
   double linear_q = 0.5;    ///< on the sound speed
   double hourglass = 0.06; ///< of rho c V / L; 64 times it over the CFL number damps a 3D mode
+  double shear_q = 0;  ///< 0 to 1: part of q's coefficient that resists shear, too (ale/shear_viscosity)
+  double subzonal_pressure = 0; ///< merit factor, 0 to 1; 2D Lagrangian blocks (ale/subzonal_pressure)
   bool energy_return = true; ///< kinetic energy lost in the remap goes to internal energy
   remap::NormalMethod normal = remap::NormalMethod::elvira;
   double dt_initial = 0; ///< s, 0: a tenth of the stable step

@@ -102,6 +102,9 @@ template <int Dim> void prepare(Scene<Dim>& scene) {
     b.closure = scene.numerics.closure;
     b.still_speed = still_speed_of(b);
     start_motion(b);
+    if (scene.numerics.subzonal_pressure > 0) {
+      mark_subzones(b);
+    }
     pull_back_to_yield(b, *scene.pool);
     update_state(b, *scene.pool);
     update_traction(b, *scene.pool);

@@ -240,7 +240,7 @@ void advance_row(Scene<Dim>& scene,
   corner_work<Dim>(b,
                    ForceRows<Dim>(b, j, k).from(cells.begin),
                    next,
-                   force_coefficients(scene.numerics, dt),
+                   force_coefficients(b, scene.numerics, dt),
                    cells.count(),
                    buffer.rows.from(cells.begin));
   buffer.runs.scan(b.owner_row(r), cells);

@@ -103,6 +103,18 @@ const SectionSpec& numerics() {
         .doc = "viscous hourglass coefficient",
         .range = {0, 1},
         .fallback = "0.06"},
+       {.name = "shear_q",
+        .kind = quantity,
+        .doc = "part of the artificial viscosity's coefficient that resists shear and hoop compression in shocks, too: against jets "
+               "along rows of cells",
+        .range = {0, 1},
+        .fallback = "0"},
+       {.name = "subzonal_pressure",
+        .kind = quantity,
+        .doc = "merit factor of the pressures of a cell's quarters, which restore distorted cells; cells without strength of Lagrangian "
+               "meshes, not 3d",
+        .range = {0, 1},
+        .fallback = "0"},
        {.name = "energy_return",
         .kind = choice,
         .doc = "kinetic energy lost in the remap becomes heat; auto: on in scenes without strength",

@@ -81,6 +81,15 @@ std::vector<int> sliding_materials(Deck& deck, DeckNode* list, const SceneSpec& 
   return sliding;
 }
 
+/// The merit factor, checked against what knows no subzones.
+double subzonal_pressure(Deck& deck, const Section& in, const SceneSpec& scene) {
+  const double merit = in.number("subzonal_pressure", 0);
+  if (merit > 0 && (scene.geometry == Geometry::three_d || scene.motion.remaps())) {
+    deck.fail_key(*in.node("subzonal_pressure"), "a cell's quarters are known in 2D, as long as the mesh is Lagrangian", "0");
+  }
+  return merit;
+}
+
 void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
   const Section in = read_section(deck, node, scene_keys::numerics());
   Numerics& n = scene.numerics;
@@ -89,6 +98,8 @@ void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
   n.quadratic_q = in.number("quadratic_q", n.quadratic_q);
   n.linear_q = in.number("linear_q", n.linear_q);
   n.hourglass = in.number("hourglass", n.hourglass);
+  n.shear_q = in.number("shear_q", n.shear_q);
+  n.subzonal_pressure = subzonal_pressure(deck, in, scene);
   scene.energy_return = static_cast<Switch>(in.choice("energy_return"));
   n.normal = static_cast<remap::NormalMethod>(in.choice("normal"));
   scene.interface_order = interface_order(deck, in.node("interface_order"), scene);

@@ -64,6 +64,12 @@ template <int Dim> Scene<Dim> falling_gas(const Implosion& p, int n, MotionPolic
   return scene;
 }
 
+/// What holds grid-aligned shocks on Lagrangian meshes together: q against shear as well, subzones (2D).
+void shock_options(Numerics& n) {
+  n.shear_q = 1;
+  n.subzonal_pressure = 1;
+}
+
 /// L1 of the density over cells within `exact_within`, by volume, of the exact mean there.
 template <int Dim> double density_error(const Block<Dim>& b, const exact::Noh& problem) {
   double error = 0, mass = 0;
@@ -126,7 +132,11 @@ template <int Dim> void implosion(VerifyReport& r, const Implosion& p, int fine,
     for (const int n : {fine / 2, fine}) {
       const std::string name = fmt::format("{} N {}", short_name(motion), n);
       TubeRun<Dim> run;
-      const std::string why = try_scene(falling_gas<Dim>(p, n, motion, cold), end_time, run);
+      Scene<Dim> scene = falling_gas<Dim>(p, n, motion, cold);
+      if (motion == MotionPolicy::lagrangian) {
+        shock_options(scene.numerics);
+      }
+      const std::string why = try_scene(std::move(scene), end_time, run);
       if (limit > 0) {
         r.close(name + ", end time", end_time, 1e-12, run.clock.time);
       } else {
@@ -154,20 +164,11 @@ template <int Dim> void implosion(VerifyReport& r, const Implosion& p, int fine,
   r.set_cells(std::lround(std::pow(fine, Dim)));
 }
 
-/// Round Lagrangian implosions on square cells grow spikes along the axes, which the viscous hourglass control at its stable
-/// coefficient (0.03 / CFL) is too weak to hold: with ten times as much, at a tenth of the step, the same run ends.
-template <int Dim> void held_by_hourglass_control(VerifyReport& r, const Implosion& p, int n) {
-  Scene<Dim> scene = falling_gas<Dim>(p, n, MotionPolicy::lagrangian, cold);
-  scene.numerics.hourglass = 0.6;
-  scene.numerics.cfl = 0.05;
-  const std::string name = fmt::format("Lag N {}, hourglass 0.6, CFL 0.05", n);
+/// Without the options of `shock_options`: the axes' jets stop Lagrangian runs early (reported).
+template <int Dim> void without_options(VerifyReport& r, const Implosion& p, int n) {
   TubeRun<Dim> run;
-  const std::string why = try_scene(std::move(scene), end_time, run);
-  r.note(name + ", end time (asked 0.6)", run.clock.time);
-  if (why.empty()) {
-    r.note(name + ", L1(rho)", density_error(run.scene.blocks[0], exact::Noh{p.geometry}));
-    shock_and_plateau(r, name, exact::Noh{p.geometry}, n, 0, 0, run);
-  }
+  try_scene(falling_gas<Dim>(p, n, MotionPolicy::lagrangian, cold), end_time, run);
+  r.note(fmt::format("Lag N {} with default numerics, end time (asked 0.6)", n), run.clock.time);
 }
 
 constexpr Implosion cylinder{exact::Geometry::cylindrical, false}, sphere_rz{exact::Geometry::spherical, true}, sphere{exact::Geometry::spherical, false};
@@ -180,15 +181,15 @@ void cylindrical(VerifyReport& r) {
   r.note("Eul N 100 from 1e-9 J/kg, end time (asked 0.6)", run.clock.time);
 }
 
-/// Asked of the Lagrangian run: radius within 8 %, density at least 45 (reported, see above).
+/// The gates: radius within 8 % (Lagrangian) and 12 %, density at least 45.
 void spherical_rz(VerifyReport& r) {
-  implosion<2>(r, sphere_rz, 100, {0, 0.12, 45}, both_motions);
-  held_by_hourglass_control<2>(r, sphere_rz, 50);
+  implosion<2>(r, sphere_rz, 100, {0.08, 0.12, 45}, both_motions);
+  without_options<2>(r, sphere_rz, 50);
 }
 
 void spherical_3d(VerifyReport& r) {
   implosion<3>(r, sphere, 50, {0, 0, 0}, both_motions);
-  held_by_hourglass_control<3>(r, sphere, 25);
+  without_options<3>(r, sphere, 25);
 }
 
 } // namespace
