@@ -66,7 +66,7 @@ remap_frequency() {
 resolution() {
   local s=resolution list
   list="$(scaled 0.25),$(scaled 0.5),$(scaled 1),$(scaled 2)"
-  run $s m80 problems/m80_tissue.toml --vary "mesh.refine=$list"
+  run $s m80 problems/m80_tissue.toml --vary "mesh.refine=$list" --set 'end_time="60 us"'
   run $s m80_window problems/m80_window.toml --vary "mesh.refine=$(scaled 0.25),$(scaled 0.5),$(scaled 1)" --set 'end_time="60 us"'
 }
 
