@@ -86,7 +86,8 @@ void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene) {
   }
   for (const std::size_t d : listed_axes(deck, in, "stretch", names)) {
     m.stretches[d] = true; // about the middle, which then must go along, or from a plane
-    m.axes[d] = m.axes[d] || scene.boundaries[d][0].kind != BoundaryKind::symmetry;
+    const bool from_plane = scene.boundaries[d][0].kind == BoundaryKind::symmetry;
+    m.axes[d] = from_plane ? m.axes[d] && in.has("axes") : true; // from a plane it does not go unless it is told to
     if (scene.boundaries[d][1].kind != BoundaryKind::free && scene.boundaries[d][1].kind != BoundaryKind::absorbing) {
       deck.fail(*in.node("stretch"), fmt::format("the mesh would grow along {}, where its upper side is neither free nor absorbing", names[d]), "a free or absorbing side");
     }

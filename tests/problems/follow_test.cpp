@@ -158,6 +158,14 @@ z = { from = "-9 mm", to = "13 mm", size = "0.5 mm" }
   EXPECT_NEAR(moving[1], resting[1], 0.01 * resting[1]);
 }
 
+TEST(Follow, StretchesFromAPlaneWithoutGoing) {
+  std::string text = alone;
+  text.replace(text.find("z = { from = \"-5 mm\""), std::string("z = { from = \"-5 mm\"").size(), "z = { lower = \"symmetry\", from = \"0 mm\"");
+  const SceneSpec spec = scene_of(text, std::string(follows) + "stretch = [\"r\", \"z\"]\n");
+  EXPECT_EQ(spec.motion.axes, (std::array<bool, 3>{}));
+  EXPECT_EQ(spec.motion.stretches, (std::array<bool, 3>{true, true, false}));
+}
+
 // A cylinder of gas in a void bursts: a window that stretches grows with it, so that most of it stays in.
 TEST(Follow, GrowsWithWhatItFollows) {
   const auto deck = [](const std::string& stretch) {
