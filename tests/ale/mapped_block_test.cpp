@@ -4,6 +4,7 @@
 #include "ale/relax.hpp"
 #include "ale/simulation.hpp"
 #include "core/hex_geometry.hpp"
+#include "tests/uniform_lines.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -20,14 +21,6 @@ Material gas() {
   m.name = "gas";
   m.density = 1;
   return m;
-}
-
-std::vector<double> uniform(double from, double to, int cells) {
-  std::vector<double> x;
-  for (int i = 0; i <= cells; ++i) {
-    x.push_back(from + (to - from) * i / cells);
-  }
-  return x;
 }
 
 /// Gas of density 1 and pressure p(x, y) at the cells' middles on a mapped mesh.

@@ -201,5 +201,32 @@ z = { from = "-150 mm", to = "150 mm", size = "10 mm" }
   EXPECT_LT(scene.ledger.mass_out[0], 0.15 * start); // the thin gas of the front runs ahead of the mean
 }
 
+// A side that only grows, without going anywhere, takes in what lies ahead of it: a shell of muscle that goes on beyond the mesh.
+TEST(Follow, AGrowingSideMeetsWhatLiesAhead) {
+  const SceneSpec spec = scene_of(R"(
+title = "gas that bursts towards a shell"
+geometry = "axisymmetric"
+end_time = "0.3 ms"
+ambient = { pressure = "0 Pa" }
+[[body]]
+name = "gas"
+material = "air"
+pressure = "1 atm"
+shape = { box = { from = ["0 mm", "0 mm"], to = ["100 mm", "100 mm"] } }
+[[body]]
+name = "shell"
+material = "muscle"
+shape = { box = { from = ["140 mm", "0 mm"], to = ["900 mm", "900 mm"] } }
+[mesh]
+r = { from = "0 mm", to = "150 mm", size = "10 mm" }
+z = { from = "0 mm", to = "150 mm", size = "10 mm", lower = "symmetry" }
+)", gas_follows + "stretch = [\"r\", \"z\"]\n");
+  const double start = totals(build_scene<2>(spec, 1).blocks[0]).mass[1];
+  const Scene<2> scene = at_end(spec);
+  const double edge = scene.blocks[0].position[0].row(scene.blocks[0].grid.node_row(0, 0))[15];
+  ASSERT_GT(edge, 0.155);
+  EXPECT_GT(totals(scene.blocks[0]).mass[1], 1.3 * start);
+}
+
 } // namespace
 } // namespace ballast

@@ -3,6 +3,7 @@
 #include "tests/exact/shell_collapse.hpp"
 #include "tests/verify/cases.hpp"
 #include "tests/verify/measure.hpp"
+#include "tests/uniform_lines.hpp"
 
 #include "problems/build_scene.hpp"
 
@@ -27,14 +28,6 @@ Material beryllium(const exact::Shell& shell) {
   m.strength = LinearHardening{shear_modulus, shell.yield, 0};
   m.density = shell.density;
   return m;
-}
-
-std::vector<double> uniform(double from, double to, int cells) {
-  std::vector<double> x;
-  for (int i = 0; i <= cells; ++i) {
-    x.push_back(from + (to - from) * i / cells);
-  }
-  return x;
 }
 
 /// A quarter: 0 to 90 degrees; `through` cells through the wall, about as long along it as across in the middle.

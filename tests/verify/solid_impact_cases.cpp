@@ -2,6 +2,7 @@
 // ten lengths through void.
 #include "tests/verify/cases.hpp"
 #include "tests/verify/measure.hpp"
+#include "tests/uniform_lines.hpp"
 
 #include "problems/build_scene.hpp"
 #include "problems/run_measure.hpp"
@@ -25,14 +26,6 @@ Material taylor_copper() {
   m.strength = LinearHardening{youngs / (2 * (1 + poisson)), 0.4e9, 0.1e9};
   m.density = rho;
   return m;
-}
-
-std::vector<double> uniform(double from, double to, int cells) {
-  std::vector<double> x;
-  for (int i = 0; i <= cells; ++i) {
-    x.push_back(from + (to - from) * i / cells);
-  }
-  return x;
 }
 
 struct Rod {
