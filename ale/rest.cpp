@@ -202,6 +202,40 @@ template <int Dim> bool may_sleep(const Block<Dim>& b) {
   return stands && b.skew[0].empty() && !b.boundary.any(BoundaryKind::inflow);
 }
 
+/// Mixed awake cells of each slab.
+template <int Dim> std::vector<int> count_mixed(const Block<Dim>& b, ThreadPool& pool) {
+  const Grid& g = b.grid;
+  std::vector<int> mixed(static_cast<std::size_t>(g.slabs()));
+  parallel_awake(pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
+    for (int s = begin; s < end; ++s) {
+      int count = 0;
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        const int r = g.cell_row(j, k);
+        const Span cells = b.awake.cells(r);
+        const std::int8_t* owner = b.owner_row(r);
+        count += static_cast<int>(std::count(owner + cells.begin, owner + cells.end, mixed_cell));
+      }
+      mixed[static_cast<std::size_t>(s)] = count;
+    }
+  });
+  return mixed;
+}
+
+template <int Dim> void find_awake(const Scene<Dim>& scene, Block<Dim>& b, bool remapped) {
+  const Grid& g = b.grid;
+  std::vector<Span> found(static_cast<std::size_t>(g.cell_rows()));
+  parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        found[static_cast<std::size_t>(g.cell_row(j, k))] = restless(b, j, k, scene.numerics.spall);
+      }
+    }
+  });
+  b.awake.follow(g, std::move(found), remapped || !b.motion.remaps());
+}
+
 } // namespace
 
 template <int Dim> double still_speed_of(const Block<Dim>& b) {
@@ -256,20 +290,12 @@ template <int Dim> void hold_still(Block<Dim>& b, ThreadPool& pool, Ledger& ledg
 
 template <int Dim> void follow_rest(Scene<Dim>& scene, Block<Dim>& b, bool remapped) {
   b.awake_steps += b.awake.share();
-  if (!scene.numerics.sleeping || !may_sleep(b)) {
-    return;
+  if (scene.numerics.sleeping && may_sleep(b)) {
+    find_awake(scene, b, remapped);
   }
-  const Grid& g = b.grid;
-  std::vector<Span> found(static_cast<std::size_t>(g.cell_rows()));
-  parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
-    for (int s = begin; s < end; ++s) {
-      for (int q = 0; q < g.rows_per_slab(); ++q) {
-        const auto [j, k] = g.in_slab(s, q);
-        found[static_cast<std::size_t>(g.cell_row(j, k))] = restless(b, j, k, scene.numerics.spall);
-      }
-    }
-  });
-  b.awake.follow(g, std::move(found), remapped || !b.motion.remaps());
+  if (scene.pool->size() > 1 && b.materials.size() > 1) {
+    b.awake.weigh(b.grid, count_mixed(b, *scene.pool));
+  }
 }
 
 template double still_speed_of<2>(const Block<2>&);

@@ -6,7 +6,8 @@ namespace ballast {
 
 namespace {
 
-constexpr int row_cost = 16; ///< cells that an awake row costs besides its own
+constexpr int row_cost = 16;   ///< pure cells that an awake row costs besides its own
+constexpr int mixed_cost = 24; ///< pure cells that a mixed cell costs besides itself
 
 /// Grows the spans of rows [0, count), `stride` apart, to the hull of those within reach.
 void spread(std::vector<Span>& spans, std::size_t first, std::size_t stride, int count) {
@@ -51,21 +52,18 @@ void Awake::set(const Grid& g, const std::vector<Span>& restless) {
   for (int j = 0; g.dim == 3 && j < g.cells[1]; ++j) {
     spread(cells_, row(j, 0), static_cast<std::size_t>(g.cell_rows_per_plane()), g.cells[2]);
   }
-  before_.assign(static_cast<std::size_t>(g.slabs()) + 1, 0);
   long count = 0;
   for (int s = 0; s < g.slabs(); ++s) {
-    long slab = 0;
     for (int q = 0; q < g.rows_per_slab(); ++q) {
       const auto [j, k] = g.in_slab(s, q);
       Span& c = cells_[row(j, k)];
       if (!c.empty()) {
         c = {std::max(0, c.begin - reach) / tile * tile, std::min(g.cells[0], (c.end + reach + tile - 1) / tile * tile)};
         count += c.count();
-        slab += c.count() + row_cost;
       }
     }
-    before_[static_cast<std::size_t>(s) + 1] = before_[static_cast<std::size_t>(s)] + slab;
   }
+  weigh(g, std::vector<int>(static_cast<std::size_t>(g.slabs()), 0));
   share_ = static_cast<double>(count) / static_cast<double>(g.cell_count());
   for (int k = -g.ghost[2]; k < g.cells[2] + g.ghost[2]; ++k) {
     for (int j = -g.ghost[1]; j < g.cells[1] + g.ghost[1]; ++j) {
@@ -83,6 +81,20 @@ void Awake::set(const Grid& g, const std::vector<Span>& restless) {
       }
       nodes_[static_cast<std::size_t>(g.node_row(j, k))] = n.empty() ? n : Span{n.begin, n.end + 1};
     }
+  }
+}
+
+void Awake::weigh(const Grid& g, const std::vector<int>& mixed) {
+  before_.assign(static_cast<std::size_t>(g.slabs()) + 1, 0);
+  for (int s = 0; s < g.slabs(); ++s) {
+    const auto at = static_cast<std::size_t>(s);
+    long cost = static_cast<long>(mixed_cost) * mixed[at];
+    for (int q = 0; q < g.rows_per_slab(); ++q) {
+      const auto [j, k] = g.in_slab(s, q);
+      const Span& c = cells(g.cell_row(j, k));
+      cost += c.empty() ? 0 : c.count() + row_cost;
+    }
+    before_[at + 1] = before_[at] + cost;
   }
 }
 

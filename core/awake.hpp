@@ -55,7 +55,9 @@ public:
 
   /// Share of the block's cells that are awake.
   double share() const { return share_; }
-  /// Slab at which part `part` of `parts` begins so that each part has as many awake cells.
+  /// Weighs the slabs for the cut. `mixed`: mixed awake cells of each slab, which cost more than pure ones.
+  void weigh(const Grid& grid, const std::vector<int>& mixed);
+  /// Slab at which part `part` of `parts` begins so that each part costs as much.
   int cut(int part, int parts) const;
 
 private:
@@ -63,12 +65,12 @@ private:
 
   std::vector<Span> cells_, nodes_;
   std::vector<Span> recent_, older_; ///< restless since the last remap, and from the one before to it
-  std::vector<long> before_;         ///< awake cells in the slabs below
+  std::vector<long> before_;         ///< what the slabs below cost, in pure cells
   double share_ = 1;
 };
 
 /// Calls body(begin, end, thread) on contiguous parts of [0, count), slabs or the planes of nodes around them, one a
-/// thread, each with as many awake cells. Without `awake`: parts of equal length.
+/// thread, each of the same cost. Without `awake`: parts of equal length.
 template <class Body> void parallel_awake(ThreadPool& pool, const Awake* awake, int count, Body&& body) {
   if (awake == nullptr) {
     parallel_ranges(pool, count, body);

@@ -40,6 +40,9 @@ template <int Dim> TubeRun<Dim> make_tube(const Tube& t) {
   for (int i = 0; i <= t.cells; ++i) {
     line.push_back(i == 0 ? 0 : i == t.cells ? t.length : i * h + shift);
   }
+  if (!t.lines.empty()) {
+    line = t.lines;
+  }
   allocate_block(b, lines);
   for_each_cell(b, [&](int i, int j, int k) {
     const int index[3] = {i, j, k};

@@ -36,6 +36,7 @@ struct Tube {
   double reference_pressure = 0;
   Numerics numerics{};
   int threads = 1;
+  std::vector<double> lines = {}; ///< mesh lines along the tube; empty: `cells` equal cells
 };
 
 template <int Dim> struct TubeRun {
