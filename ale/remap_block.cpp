@@ -149,18 +149,21 @@ template <int Dim> remap::Mesh<Dim> view(Block<Dim>& b) {
 }
 
 /// Calls row(r, span of awake nodes) for every row of nodes.
-template <int Dim, class Row> void for_node_rows(const Block<Dim>& b, Row&& row) {
+template <int Dim, class Row> void for_node_rows(const Block<Dim>& b, ThreadPool& pool, Row&& row) {
   const Grid& g = b.grid;
-  for (int k = 0; k < (Dim == 3 ? g.cells[2] + 1 : 1); ++k) {
-    for (int j = 0; j <= g.cells[1]; ++j) {
-      row(g.node_row(j, k), b.awake.nodes(g.node_row(j, k)));
+  parallel_awake(pool, &b.awake, g.slabs() + 1, [&](int begin, int end, int) {
+    for (int plane = begin; plane < end; ++plane) {
+      for (int q = 0; q < (Dim == 3 ? g.cells[1] + 1 : 1); ++q) {
+        const int r = Dim == 3 ? g.node_row(q, plane) : g.node_row(plane, 0);
+        row(r, b.awake.nodes(r));
+      }
     }
-  }
+  });
 }
 
 /// No jump at nodes that hold only one of the two, or nothing: slivers of them were dropped since the jump was made.
-template <int Dim> void settle_jumps(Block<Dim>& b) {
-  for_node_rows(b, [&](int r, Span nodes) {
+template <int Dim> void settle_jumps(Block<Dim>& b, ThreadPool& pool) {
+  for_node_rows(b, pool, [&](int r, Span nodes) {
     const double *mass = b.node_mass.row(r), *sliding = b.sliding.node_mass.row(r);
     for (auto& component : b.sliding.jump) {
       double* jump = component.row(r);
@@ -172,8 +175,8 @@ template <int Dim> void settle_jumps(Block<Dim>& b) {
 }
 
 /// Nodes without mass rest: nothing there moves.
-template <int Dim> void rest_massless_nodes(Block<Dim>& b) {
-  for_node_rows(b, [&](int r, Span nodes) {
+template <int Dim> void rest_massless_nodes(Block<Dim>& b, ThreadPool& pool) {
+  for_node_rows(b, pool, [&](int r, Span nodes) {
     const double* mass = b.node_mass.row(r);
     for (auto& component : b.velocity) {
       double* u = component.row(r);
@@ -238,10 +241,10 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   take_target_volume(b, *scene.pool);
   compute_node_mass(b, *scene.pool);
   if (b.any_sliding()) {
-    settle_jumps(b);
+    settle_jumps(b, *scene.pool);
   }
   if (b.void_index() >= 0) {
-    rest_massless_nodes(b);
+    rest_massless_nodes(b, *scene.pool);
   }
   hold_outflow(b, leaving, scene.ledger);
   hold_still(b, *scene.pool, scene.ledger);

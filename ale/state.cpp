@@ -287,74 +287,6 @@ template <int Dim> std::string contents(const Block<Dim>& b, const std::array<in
   return out;
 }
 
-/// What a row of nodes has beyond one velocity for all they hold.
-template <int Dim> static void add_sliding(const Block<Dim>& b, int r, Totals& t) {
-  const double *sliding = b.sliding.node_mass.row(r), *mass = b.node_mass.row(r);
-  for (std::size_t d = 0; d < Dim; ++d) {
-    const double* jump = b.sliding.jump[d].row(r);
-    for (int i = 0; i <= b.grid.cells[0]; ++i) {
-      if (jump[i] == 0) {
-        continue;
-      }
-      const double follows = remap::node_follows(sliding[i], mass[i]), rest = mass[i] - sliding[i];
-      const double node = b.velocity[d].row(r)[i], u = (1 - follows) * jump[i], v = -follows * jump[i];
-      t.kinetic_energy += sliding[i] * u * (node + 0.5 * u) + rest * v * (node + 0.5 * v);
-      t.momentum[d] += sliding[i] * u + rest * v;
-    }
-  }
-}
-
-template <int Dim> Totals totals(const Block<Dim>& b) {
-  const Grid& g = b.grid;
-  Totals t;
-  for (const MaterialSlot& slot : b.materials) {
-    double mass = 0, energy = 0, volume = 0;
-    for (int k = 0; k < g.cells[2]; ++k) {
-      for (int j = 0; j < g.cells[1]; ++j) {
-        const int r = g.cell_row(j, k);
-        if (!slot.store.has_row(r)) {
-          continue;
-        }
-        const double* f = slot.store.row(field::fraction, r);
-        const double* v = b.volume.row(r);
-        const double* m = slot.is_void ? nullptr : slot.store.row(field::mass, r);
-        const double* e = slot.is_void ? nullptr : slot.store.row(field::energy, r);
-        double row_mass = 0, row_energy = 0;
-        for (int i = 0; i < g.cells[0]; ++i) {
-          volume += f[i] * v[i];
-          row_mass += m ? m[i] : 0;
-          row_energy += m ? m[i] * e[i] : 0;
-        }
-        mass += row_mass;
-        energy += row_energy;
-      }
-    }
-    t.mass.push_back(mass);
-    t.internal_energy.push_back(energy);
-    t.volume.push_back(volume);
-  }
-  for (int k = 0; k < (Dim == 3 ? g.cells[2] + 1 : 1); ++k) {
-    for (int j = 0; j <= g.cells[1]; ++j) {
-      const int r = g.node_row(j, k);
-      const double* m = b.node_mass.row(r);
-      for (std::size_t d = 0; d < Dim; ++d) {
-        const double* u = b.velocity[d].row(r);
-        double momentum = 0, kinetic = 0;
-        for (int i = 0; i <= g.cells[0]; ++i) {
-          momentum += m[i] * u[i];
-          kinetic += 0.5 * m[i] * u[i] * u[i];
-        }
-        t.momentum[d] += momentum;
-        t.kinetic_energy += kinetic;
-      }
-      if (b.any_sliding()) {
-        add_sliding(b, r, t);
-      }
-    }
-  }
-  return t;
-}
-
 template void refresh_shear<2>(Block<2>&, MaterialSlot&, int);
 template void refresh_shear<3>(Block<3>&, MaterialSlot&, int);
 template void row_state<2>(Block<2>&, int, RowRuns&, std::vector<double>&);
@@ -365,7 +297,5 @@ template void update_state<2>(Block<2>&, ThreadPool&);
 template void update_state<3>(Block<3>&, ThreadPool&);
 template std::string contents<2>(const Block<2>&, const std::array<int, 3>&);
 template std::string contents<3>(const Block<3>&, const std::array<int, 3>&);
-template Totals totals<2>(const Block<2>&);
-template Totals totals<3>(const Block<3>&);
 
 } // namespace ballast

@@ -71,6 +71,15 @@ constexpr int mirrored_node(int i, int n) {
   return m < 0 ? 0 : m > n ? n : m;
 }
 
+/// Fills the ghosts of one cell row at both its ends; `a` points to i = 0, or is null.
+inline void mirror_row(const Grid& g, double* a, double sign) {
+  const int n = g.cells[0];
+  for (int q = 1; a != nullptr && q <= g.ghost[0]; ++q) {
+    a[-q] = sign * a[mirrored_cell(-q, n)];
+    a[n - 1 + q] = sign * a[mirrored_cell(n - 1 + q, n)];
+  }
+}
+
 /// Fills the ghosts of cell rows beyond both sides of one axis: `row(j, k)` must return the pointer to i = 0, or
 /// null to skip. sign is -1 for a component that a mirror at that axis turns round.
 template <class Row> void mirror_cells_along(const Grid& g, int axis, double sign, Row&& row) {
@@ -78,12 +87,7 @@ template <class Row> void mirror_cells_along(const Grid& g, int axis, double sig
   if (axis == 0) {
     for (int k = 0; k < g.cells[2]; ++k) {
       for (int j = 0; j < g.cells[1]; ++j) {
-        if (double* a = row(j, k)) {
-          for (int q = 1; q <= g0; ++q) {
-            a[-q] = sign * a[mirrored_cell(-q, n0)];
-            a[n0 - 1 + q] = sign * a[mirrored_cell(n0 - 1 + q, n0)];
-          }
-        }
+        mirror_row(g, row(j, k), sign);
       }
     }
     return;

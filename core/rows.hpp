@@ -5,23 +5,28 @@
 
 namespace ballast {
 
-/// Sum of n values in eight lanes, added lane by lane: vectorises, and the order does not depend on how.
-inline double lane_sum(const double* x, int n) {
+/// Sum of term(i) for i in [0, n) in eight lanes, added lane by lane: vectorises, and the order does not depend on how.
+template <class Term> inline double lane_total(int n, Term term) {
   double lane[8] = {0, 0, 0, 0, 0, 0, 0, 0};
   int i = 0;
   for (; i + 8 <= n; i += 8) {
     for (int l = 0; l < 8; ++l) {
-      lane[l] += x[i + l];
+      lane[l] += term(i + l);
     }
   }
   double sum = 0;
   for (; i < n; ++i) {
-    sum += x[i];
+    sum += term(i);
   }
   for (const double l : lane) {
     sum += l;
   }
   return sum;
+}
+
+/// Sum of n values likewise.
+inline double lane_sum(const double* x, int n) {
+  return lane_total(n, [x](int i) { return x[i]; });
 }
 
 /// The material of all `count` cells from `owner` on, or -1 (also where owners say -1: mixed).

@@ -15,16 +15,23 @@ void keep_freed_memory() {
 }
 
 namespace {
-constexpr int spins_before_sleep = 20000; // a step's phases follow within microseconds
+
+/// A step's phases follow within microseconds and to wake a sleeping thread takes tens of them: a waiting thread looks again and
+/// again, then lets others have the core in between, and sleeps when nothing came for as long as phases may take.
+constexpr int looks = 4000, yields = 1000;
 
 void await_change(const std::atomic<int>& value, int old) {
-  for (int spin = 0; spin < spins_before_sleep; ++spin) {
+  for (int look = 0; look < looks + yields; ++look) {
     if (value.load(std::memory_order_acquire) != old) {
       return;
+    }
+    if (look >= looks) {
+      std::this_thread::yield();
     }
   }
   value.wait(old, std::memory_order_acquire);
 }
+
 } // namespace
 
 ThreadPool::ThreadPool(int threads) {

@@ -19,8 +19,7 @@ template <int Dim> std::vector<int> RunSession<Dim>::bullet_slots() const {
   return out;
 }
 
-template <int Dim> EnergyAccount RunSession<Dim>::account() const {
-  const Totals t = totals(scene_.blocks[0]);
+template <int Dim> EnergyAccount RunSession<Dim>::account(const Totals& t) const {
   const Ledger& l = scene_.ledger;
   EnergyAccount a;
   a.kinetic = t.kinetic_energy;
@@ -81,7 +80,7 @@ template <int Dim> std::vector<std::string> RunSession<Dim>::columns() const {
 template <int Dim> std::vector<double> RunSession<Dim>::values() {
   const Block<Dim>& b = scene_.blocks[0];
   const Totals t = totals(b);
-  const EnergyAccount a = account();
+  const EnergyAccount a = account(t);
   peak_unaccounted_ = std::max(peak_unaccounted_, std::abs(a.unaccounted));
   std::vector<double> v = {clock_.dt, a.kinetic, a.internal, a.total, scene_.ledger.remap_kinetic_loss, a.unaccounted};
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -168,11 +167,11 @@ template <int Dim> std::vector<double> RunSession<Dim>::values() {
 }
 
 template std::vector<int> RunSession<2>::bullet_slots() const;
-template EnergyAccount RunSession<2>::account() const;
+template EnergyAccount RunSession<2>::account(const Totals&) const;
 template std::vector<std::string> RunSession<2>::columns() const;
 template std::vector<double> RunSession<2>::values();
 template std::vector<int> RunSession<3>::bullet_slots() const;
-template EnergyAccount RunSession<3>::account() const;
+template EnergyAccount RunSession<3>::account(const Totals&) const;
 template std::vector<std::string> RunSession<3>::columns() const;
 template std::vector<double> RunSession<3>::values();
 

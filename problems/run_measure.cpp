@@ -102,6 +102,27 @@ template <int Dim, class Choice, class Body> void for_cells(const Block<Dim>& b,
   }
 }
 
+/// The cells of a row from the first to the last that hold some of the slots.
+template <int Dim> Span held_in_row(const Block<Dim>& b, const std::vector<int>& slots, int r) {
+  Span cells;
+  for (const int s : slots) {
+    const TileStore& store = b.materials[static_cast<std::size_t>(s)].store;
+    if (!store.has_row(r)) {
+      continue;
+    }
+    const double* f = store.row(field::fraction, r);
+    Span held{0, b.grid.cells[0]};
+    while (!held.empty() && f[held.begin] == 0) {
+      ++held.begin;
+    }
+    while (!held.empty() && f[held.end - 1] == 0) {
+      --held.end;
+    }
+    cells = hull(cells, held);
+  }
+  return cells;
+}
+
 } // namespace
 
 template <int Dim> double kinetic_energy(const Block<Dim>& b, int slot) {
@@ -128,10 +149,7 @@ BodyMeasure
 measure_body(const Block<Dim>& b, const std::vector<int>& slots, int axis, double direction) {
   BodyMeasure m;
   double low = std::numeric_limits<double>::infinity(), high = -low, momentum = 0;
-  const auto held = [&](int r) {
-    const bool any = std::any_of(slots.begin(), slots.end(), [&](int s) { return b.materials[static_cast<std::size_t>(s)].store.has_row(r); });
-    return any ? Span{0, b.grid.cells[0]} : Span{};
-  };
+  const auto held = [&](int r) { return held_in_row(b, slots, r); };
   for_cells(b, held, [&](int i, int j, int k) {
     const int r = b.grid.cell_row(j, k);
     double mass = 0, sliding = 0;

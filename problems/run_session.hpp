@@ -46,7 +46,7 @@ private:
   void summary(const std::string& ended, const std::string& message);
   std::vector<std::string> columns() const;
   std::vector<double> values();
-  EnergyAccount account() const;
+  EnergyAccount account(const Totals& totals) const;
   std::vector<int> bullet_slots() const;
 
   const ReadScene& read_;

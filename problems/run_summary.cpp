@@ -15,7 +15,7 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
   using nlohmann::ordered_json;
   const Block<Dim>& b = scene_.blocks[0];
   const Totals t = totals(b);
-  const EnergyAccount a = account();
+  const EnergyAccount a = account(t);
   const Ledger& l = scene_.ledger;
   const double wall = seconds_since(start_);
   rusage usage{};

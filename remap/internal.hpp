@@ -14,7 +14,7 @@ template <int Dim>
 void compute_swept(Mesh<Dim>& mesh, ThreadPool& pool, const std::array<RowField, Dim>& from, const std::array<RowField, Dim>& to, long order);
 
 /// Allocates tiles that a sweep may reach and fills every ghost a sweep along `axis` reads.
-template <int Dim> void exchange_for_sweep(Mesh<Dim>& mesh, int axis);
+template <int Dim> void exchange_for_sweep(Mesh<Dim>& mesh, ThreadPool& pool, int axis);
 
 /// Cells' part of a sweep along `axis`: volumes, fractions, masses, intensives; leaves mass_flux and the cells'
 /// masses before the sweep in scratch.cell_mass.

@@ -98,18 +98,23 @@ template <int Dim> std::array<int, 3> worst_cell(const Mesh<Dim>& m, long order)
 }
 
 /// Tiles within reach of a tile where a material is present are allocated, others released.
-template <int Dim> void follow_presence(Mesh<Dim>& m) {
+template <int Dim> void follow_presence(Mesh<Dim>& m, ThreadPool& pool) {
   const Grid& g = m.grid;
   for (TileStore* store : m.materials) {
     const int tiles = store->tile_count(), per_tile = store->rows_per_tile(), rows = g.cell_rows();
-    std::vector<char> wanted(static_cast<std::size_t>(tiles), 0);
+    std::vector<char> filled(static_cast<std::size_t>(tiles)), wanted(filled.size());
+    parallel_ranges(pool, tiles, [&](int begin, int end, int) {
+      for (int t = begin; t < end; ++t) {
+        filled[static_cast<std::size_t>(t)] = store->any(0, t) ? 1 : 0;
+      }
+    });
     const auto mark = [&](int first, int last) {
       for (int t = std::max(first, 0) / per_tile; t <= std::min(last, rows - 1) / per_tile; ++t) {
         wanted[static_cast<std::size_t>(t)] = 1;
       }
     };
     for (int t = 0; t < tiles; ++t) {
-      if (!store->any(0, t)) {
+      if (!filled[static_cast<std::size_t>(t)]) {
         continue;
       }
       const int first = t * per_tile, last = first + per_tile - 1;
@@ -218,21 +223,36 @@ template <int Dim> void exchange_owner(Mesh<Dim>& m, ThreadPool& pool) {
 
 } // namespace
 
-template <int Dim> void exchange_for_sweep(Mesh<Dim>& m, int axis) {
+template <int Dim> void exchange_for_sweep(Mesh<Dim>& m, ThreadPool& pool, int axis) {
   const Grid& g = m.grid;
-  follow_presence(m);
-  for (TileStore* store : m.materials) {
-    for (int field = 0; field < store->conserved(); ++field) {
-      // Components of a tensor that change sign in a mirror only matter for slopes at the wall, where
-      // the even mirror gives a zero slope: first order there, by choice.
-      const auto row = [&](int j, int k) -> double* {
-        const int r = g.cell_row(j, k);
-        return !m.cells(r).empty() && store->has_row(r) ? store->row(field, r) : nullptr;
-      };
-      if (field == 0) { // interfaces look to all sides, slopes along the sweep only
-        mirror_cells(g, {1, 1, 1}, row);
-      } else {
-        mirror_cells_along(g, axis, 1, row);
+  follow_presence(m, pool);
+  // Components of a tensor that change sign in a mirror only matter for slopes at the wall, where
+  // the even mirror gives a zero slope: first order there, by choice.
+  const auto row_of = [&](TileStore& store, int field) {
+    return [&m, &g, &store, field](int j, int k) -> double* {
+      const int r = g.cell_row(j, k);
+      return !m.cells(r).empty() && store.has_row(r) ? store.row(field, r) : nullptr;
+    };
+  };
+  const auto fields_at = [&](const TileStore& store, int along) { // interfaces look to all sides, slopes along the sweep only
+    return along == axis ? store.conserved() : 1;
+  };
+  parallel_awake(pool, m.awake, g.slabs(), [&](int begin, int end, int) {
+    for (int slab = begin; slab < end; ++slab) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(slab, q);
+        for (TileStore* store : m.materials) {
+          for (int field = 0; field < fields_at(*store, 0); ++field) {
+            mirror_row(g, row_of(*store, field)(j, k), 1);
+          }
+        }
+      }
+    }
+  });
+  for (int along = 1; along < Dim; ++along) {
+    for (TileStore* store : m.materials) {
+      for (int field = 0; field < fields_at(*store, along); ++field) {
+        mirror_cells_along(g, along, 1, row_of(*store, field));
       }
     }
   }
@@ -253,7 +273,7 @@ void sweep_all(Mesh<Dim>& m, const Settings& settings, ThreadPool& pool, long or
   }
   for (int q = 0; q < Dim; ++q) {
     const int axis = sweep_axis(Dim, q, order);
-    exchange_for_sweep(m, axis);
+    exchange_for_sweep(m, pool, axis);
     exchange_owner(m, pool);
     for (int a = 0; a < Dim; ++a) {
       for (int side = 0; side < 2; ++side) {
@@ -352,7 +372,7 @@ template Report remap<2>(Mesh<2>&, const Settings&, ThreadPool&, long);
 template Report remap<3>(Mesh<3>&, const Settings&, ThreadPool&, long);
 template void sweep_all<2>(Mesh<2>&, const Settings&, ThreadPool&, long, Report&);
 template void sweep_all<3>(Mesh<3>&, const Settings&, ThreadPool&, long, Report&);
-template void exchange_for_sweep<2>(Mesh<2>&, int);
-template void exchange_for_sweep<3>(Mesh<3>&, int);
+template void exchange_for_sweep<2>(Mesh<2>&, ThreadPool&, int);
+template void exchange_for_sweep<3>(Mesh<3>&, ThreadPool&, int);
 
 } // namespace ballast::remap
