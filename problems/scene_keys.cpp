@@ -67,7 +67,7 @@ const SectionSpec& ambient() {
                                      .fallback = "1 atm"},
                                     {.name = "temperature",
                                      .kind = quantity,
-                                     .doc = "where thermal softening counts from",
+                                     .doc = "of everything at the start",
                                      .dimension = Dimension::temperature,
                                      .range = positive(),
                                      .fallback = "293 K"}}};

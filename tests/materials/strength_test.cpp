@@ -38,5 +38,14 @@ TEST(JohnsonCook, SoftensToNothingAtTheMeltingPoint) {
   EXPECT_EQ(flow_stress(m, {0.1, 383 * (1356 - 293.0), 0}, 0), 0);
 }
 
+TEST(JohnsonCook, WarmAtTheStartIsAsSoftAsHeatedThere) {
+  const JohnsonCook cold{46e9, 90e6, 292e6, 0.31, 0.025, 1.09, 1, 293, 1356, 383};
+  JohnsonCook warm = cold, molten = cold;
+  warm.start_temperature = 800;
+  molten.start_temperature = 1400;
+  EXPECT_NEAR(flow_stress(warm, {0.1, 1e4, 0}, 0), flow_stress(cold, {0.1, 383 * (800 - 293.0) + 1e4, 0}, 0), 1e-6);
+  EXPECT_EQ(flow_stress(molten, {0.1, 0, 0}, 0), 0);
+}
+
 } // namespace
 } // namespace ballast
