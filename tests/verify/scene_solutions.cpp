@@ -100,11 +100,6 @@ bool only_along(const Point& velocity, int axis) {
   return true;
 }
 
-/// Do the ends of the mesh go with the matter there?
-bool ends_go_along(const SceneSpec& s) {
-  return s.motion.policy == MotionPolicy::lagrangian || (s.motion.policy == MotionPolicy::relax && !s.motion.fixed_boundary);
-}
-
 bool equal(double a, double b, double scale) {
   constexpr double rounding = 1e-9;
   return std::abs(a - b) <= rounding * std::abs(scale);
@@ -128,7 +123,7 @@ std::string wave_from_end(const SceneSpec& s, const Half& h, int axis, int side)
     if (!at_ambient) {
       return pressures;
     }
-    return away > 0 && !ends_go_along(s) ? fmt::format("matter leaves a free side at {:g} m/s and void comes after it", away) : "";
+    return away > 0 && !sides_go_along(s.motion) ? fmt::format("matter leaves a free side at {:g} m/s and void comes after it", away) : "";
   case BoundaryKind::absorbing:
     return !at_ambient ? pressures : u != 0 ? fmt::format("matter at {:g} m/s beside an absorbing side, behind which it rests", u) : "";
   case BoundaryKind::inflow: {
@@ -185,8 +180,8 @@ std::optional<exact::GasState> gas_of(const Half& h, int axis) {
 double reached_at(const SceneSpec& s, const Halves& h, double left_speed, double right_speed) {
   const auto axis = static_cast<std::size_t>(h.axis);
   const auto& line = s.mesh_lines[axis];
-  left_speed -= ends_go_along(s) ? h.left.velocity[axis] : 0;
-  right_speed -= ends_go_along(s) ? h.right.velocity[axis] : 0;
+  left_speed -= sides_go_along(s.motion) ? h.left.velocity[axis] : 0;
+  right_speed -= sides_go_along(s.motion) ? h.right.velocity[axis] : 0;
   const double left = left_speed < 0 ? (line.front() - h.interface) / left_speed : std::numeric_limits<double>::infinity();
   const double right = right_speed > 0 ? (line.back() - h.interface) / right_speed : std::numeric_limits<double>::infinity();
   return std::min(left, right);
