@@ -97,7 +97,8 @@ struct FabricStress {
   FabricTensor stress = {};  ///< Pa
   FabricTensor tangent = {}; ///< dS/dE of 11, 22, 33; dS/d(2E), a shear modulus, of 12, 23, 13
   /// rho0 c^2 (Pa) of the fastest wave along 1, 2, 3, c in lengths at rest: an element of rest lengths h is stable for
-  /// dt < min h_k / sqrt(wave_modulus_k / rho0). Exact without shear strain, else an upper bound.
+  /// dt < min h_k / sqrt(wave_modulus_k / rho0). Exact without shear strain and solid, else an upper bound.
+  /// It is (1 + 2E) tangent + S, largest over the polarisations; of a rate factor the slope with rate is not in it.
   std::array<double, 3> wave_modulus = {};
 };
 
