@@ -169,10 +169,12 @@ double cycle_work(const FabricModel& model, int steps) {
 
 TEST(FabricEnergy, WorkOfAClosedCycleFallsAtOrderTwo) {
   for (const Named& named : elastic_laws()) {
-    if (named.kinked) {
-      continue; // its path crosses a corner of the curve
-    }
     const double coarse = cycle_work(named.model, 2048), fine = cycle_work(named.model, 4096), finest = cycle_work(named.model, 8192);
+    if (named.kinked) { // each corner adds an error of order two whose constant jumps with where the steps fall
+      EXPECT_LT(std::abs(finest), 0.25 * std::max(std::abs(coarse), std::abs(fine))) << named.name;
+      EXPECT_LT(std::abs(finest), 1e3) << named.name << ": of 1e8 J/m3 that go in and out";
+      continue;
+    }
     EXPECT_NEAR(std::log2(std::abs(coarse / fine)), 2, 0.02) << named.name << ' ' << coarse << ' ' << fine;
     EXPECT_NEAR(std::log2(std::abs(fine / finest)), 2, 0.02) << named.name << ' ' << fine << ' ' << finest;
   }
