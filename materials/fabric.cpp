@@ -14,10 +14,9 @@ bool has_options(const RaftenbergFabric& m) {
 
 /// Bound of the acoustic tensor along each axis: Gershgorin's of sqrt(D) (1 + 2E) sqrt(D), D the moduli, plus S.
 [[gnu::always_inline]] inline void bound_waves(const FabricTensor& E, FabricStress& out) {
-  double root[6];
-  for (int k = 0; k < 6; ++k) {
-    root[k] = std::sqrt(std::max(out.tangent[static_cast<std::size_t>(k)], 0.0));
-  }
+  const auto root_of = [](double modulus) { return std::sqrt(std::max(modulus, 0.0)); };
+  const double r11 = root_of(out.tangent[xx]), r22 = root_of(out.tangent[yy]), r33 = root_of(out.tangent[zz]);
+  const double r12 = root_of(out.tangent[xy]), r23 = root_of(out.tangent[yz]), r13 = root_of(out.tangent[xz]);
   const double c11 = 1 + 2 * E[xx], c22 = 1 + 2 * E[yy], c33 = 1 + 2 * E[zz];
   const double c12 = 2 * std::abs(E[xy]), c23 = 2 * std::abs(E[yz]), c13 = 2 * std::abs(E[xz]);
   const auto bound = [&](double r1, double r2, double r3, double s) {
@@ -26,9 +25,9 @@ bool has_options(const RaftenbergFabric& m) {
     const double b3 = r3 * (c13 * r1 + c23 * r2 + c33 * r3);
     return std::max(std::max(b1, std::max(b2, b3)) + s, 0.0);
   };
-  out.wave_modulus[0] = bound(root[xx], root[xy], root[xz], out.stress[xx]);
-  out.wave_modulus[1] = bound(root[xy], root[yy], root[yz], out.stress[yy]);
-  out.wave_modulus[2] = bound(root[xz], root[yz], root[zz], out.stress[zz]);
+  out.wave_modulus[0] = bound(r11, r12, r13, out.stress[xx]);
+  out.wave_modulus[1] = bound(r12, r22, r23, out.stress[yy]);
+  out.wave_modulus[2] = bound(r13, r23, r33, out.stress[zz]);
 }
 
 /// Secant unloading and rate factor, on a point of the printed curve.
@@ -138,7 +137,7 @@ template <bool Options>
 
 template <class Respond> void over_rows(const FabricRows& rows, Respond respond_one) {
   const FabricRows r = rows;
-#pragma omp simd
+#pragma GCC ivdep // rows do not overlap; `omp simd` would keep the tensors in memory and not vectorise
   for (int i = 0; i < r.count; ++i) {
     const FabricTensor E = {r.strain[0][i], r.strain[1][i], r.strain[2][i], r.strain[3][i], r.strain[4][i], r.strain[5][i]};
     FabricState s{{r.largest[0][i], r.largest[1][i]}};

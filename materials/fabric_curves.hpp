@@ -32,13 +32,14 @@ struct CurvePoint {
   const double x = std::max(pressed, solid_strain);
   const double t = 1 + 2 * x;
   const double q = 1 + x * (k.e + x * k.f);
-  const double squared = form == TransverseForm::a ? 1.0 : form == TransverseForm::b ? t : q;
-  const double fit = x * (k.a + x * (k.b + x * (k.c + x * k.d))) / (t * q * squared);
-  const double rise = (k.a + x * (2 * k.b + x * (3 * k.c + x * 4 * k.d))) / (t * q * squared);
+  const double t_again = form == TransverseForm::b ? t : 1.0, q_again = form == TransverseForm::c ? q : 1.0;
+  const double denominator = t * q * t_again * q_again;
+  const double fit = x * (k.a + x * (k.b + x * (k.c + x * k.d))) / denominator;
+  const double rise = (k.a + x * (2 * k.b + x * (3 * k.c + x * 4 * k.d))) / denominator;
   const double of_t = (form == TransverseForm::b ? 4.0 : 2.0) / t;
   const double of_q = (form == TransverseForm::c ? 2.0 : 1.0) * (k.e + x * 2 * k.f) / q;
   const double slope = rise - fit * (of_t + of_q);
-  const bool solid = pressed < x && solid_strain > -0.5;
+  const bool solid = (pressed < x) & (solid_strain > -0.5);
   return {solid ? fit + slope * (pressed - x) : fit, E > 0 ? 0.0 : slope};
 }
 
