@@ -26,10 +26,10 @@ enum class LayerEdge {
   elastic  ///< springs in the plane, a stiffness a node's share of the edge
 };
 
-/// Stabilisation of the element's modes that have no strain at its points (ale/layers/layer_hourglass).
+/// Stabilisation of the element's modes that have no strain at its points (ale/layers/layer_element).
 struct LayerHourglass {
-  double stiffness = 0.05; ///< of the element's own wave moduli
-  double viscosity = 0.05; ///< of rho c V / h
+  double stiffness = 0.05; ///< of the moduli at rest; through the thickness at least the weaker yarns': cloth is soft until pressed
+  double viscosity = 0.05; ///< of rho c h, c the fastest wave at rest
 };
 
 /// How the elements of a stack lie side by side.
@@ -42,7 +42,18 @@ struct LayerGrid {
   int nodes_along(int axis) const { return elements[static_cast<std::size_t>(axis)] + 1; }
 };
 
+/// What does not change along i: geometry at rest of the elements of a row.
+struct LayerRest {
+  std::vector<double> gradient; ///< 2/h, 1/m
+  std::vector<double> hoop;     ///< 1/R of the middle, 1/m; 0 without an axis
+  std::vector<double> span;     ///< h, m; around an axis 2 pi R h, m2
+  std::vector<double> lightest; ///< at least 1: (fastest/mean)^2 of an element whose corners weigh differently
+};
+
 template <int Dim> struct LayerStack {
+  /// Of an element: strains that do work, modes without strain (ale/layers/layer_element).
+  static constexpr std::size_t strains = Dim == 3 ? 9 : 6, hourglass_modes = Dim == 3 ? 9 : 1;
+
   std::string name = "layers";
   LayerGrid grid;
   bool axisymmetric = false;
@@ -65,6 +76,14 @@ template <int Dim> struct LayerStack {
   std::vector<double> hourglass_energy; ///< J: of its stabilisation
   std::vector<double> wave_step;        ///< s: largest stable step of the element, at `force`'s strains
   std::vector<char> alive;              ///< 0: eroded, its mass stays at its nodes
+
+  // What the step keeps from one phase to the next.
+  LayerRest at_rest;
+  std::array<std::vector<double>, strains> stress_volume;            ///< J: stress of each strain times the volume at rest
+  std::array<std::vector<double>, hourglass_modes> hourglass_volume; ///< J: likewise
+  std::array<std::vector<double>, Dim> mean_velocity;                ///< of the last half kick, m/s
+  std::array<std::array<std::vector<double>, 2>, 2> rate;            ///< [point][warp, fill] smoothed dE/dt, 1/s; empty unless the law wants it
+  double rate_time = 1e-6;                                           ///< s: over which it is smoothed
 
   bool three_d() const { return Dim == 3; }
   std::size_t node(int i, int j, int plane) const {
@@ -90,6 +109,27 @@ struct LayerLedger {
   long eroded_elements = 0;
   long crushed = 0;              ///< element-steps whose volume fell below a twentieth of that at rest
   double deepest = 0;            ///< m: largest penetration of neighbouring layers seen
+  double edge_loss = 0;          ///< kinetic energy of nodes that a held edge stopped at the start
 };
+
+/// What a stack is made of.
+struct LayerInput {
+  std::string name = "layers";
+  FabricModel model;
+  std::array<std::vector<double>, 2> lines; ///< at rest, in the plane, m; the second only in 3D
+  std::vector<double> levels;               ///< at rest, m: layers x through + 1 of them
+  int layers = 1, through = 1;
+  bool axisymmetric = false;
+  std::array<std::array<LayerEdge, 2>, 2> edge = {{{LayerEdge::free, LayerEdge::free}, {LayerEdge::free, LayerEdge::free}}};
+  double edge_stiffness = 0;
+  LayerHourglass hourglass = {};
+};
+
+/// A stack at rest, its forces zero. Nodes weigh density times the corner volumes of their bricks: the sum is exact.
+/// Throws Error: name, what is wrong, the cure.
+template <int Dim> LayerStack<Dim> make_stack(const LayerInput& input);
+
+/// Evenly spaced lines or levels.
+std::vector<double> even_lines(double from, double to, int elements);
 
 } // namespace ballast
