@@ -10,6 +10,7 @@
 //   E11 by eta and eta zeta, E22 by xi and xi zeta, E33 by xi, eta and xi eta, 2 E13 by eta, 2 E23 by xi  (2D: E33 by xi).
 // They vanish in every linear map of the rest shape and do not see rotations. Of each quantity k, form_k(c, d) is the symmetric
 // form with value form_k(c, c)/2 and rate form_k(c, dc/dt), `pull` the derivative of sum Q_k value_k by the modes.
+// Inner loops are unrolled by force: else loops over elements do not vectorise.
 #pragma once
 
 #include <array>
@@ -49,6 +50,7 @@ template <int Dim, class Pointer> using NodeRows = std::array<std::array<Pointer
 
 template <std::size_t N> [[gnu::always_inline]] inline double dot(const std::array<double, N>& a, const std::array<double, N>& b) {
   double sum = a[0] * b[0];
+#pragma GCC unroll 3
   for (std::size_t d = 1; d < N; ++d) {
     sum += a[d] * b[d];
   }
@@ -56,6 +58,7 @@ template <std::size_t N> [[gnu::always_inline]] inline double dot(const std::arr
 }
 
 template <std::size_t N> [[gnu::always_inline]] inline void add(std::array<double, N>& to, double factor, const std::array<double, N>& a) {
+#pragma GCC unroll 3
   for (std::size_t d = 0; d < N; ++d) {
     to[d] += factor * a[d];
   }
@@ -64,6 +67,7 @@ template <std::size_t N> [[gnu::always_inline]] inline void add(std::array<doubl
 /// factor (a + part b)
 template <std::size_t N> [[gnu::always_inline]] inline std::array<double, N> slope(double factor, const std::array<double, N>& a, double part, const std::array<double, N>& b) {
   std::array<double, N> out;
+#pragma GCC unroll 3
   for (std::size_t d = 0; d < N; ++d) {
     out[d] = factor * (a[d] + part * b[d]);
   }
@@ -72,6 +76,7 @@ template <std::size_t N> [[gnu::always_inline]] inline std::array<double, N> slo
 
 template <class Pointer> [[gnu::always_inline]] inline Modes<3> modes_at(const NodeRows<3, Pointer>& x, int i) {
   Modes<3> c;
+#pragma GCC unroll 3
   for (std::size_t d = 0; d < 3; ++d) {
     const double S0 = x[0][d][i + 1] + x[0][d][i], T0 = x[0][d][i + 1] - x[0][d][i];
     const double S1 = x[1][d][i + 1] + x[1][d][i], T1 = x[1][d][i + 1] - x[1][d][i];
@@ -90,6 +95,7 @@ template <class Pointer> [[gnu::always_inline]] inline Modes<3> modes_at(const N
 
 template <class Pointer> [[gnu::always_inline]] inline Modes<2> modes_at(const NodeRows<2, Pointer>& x, int i) {
   Modes<2> c;
+#pragma GCC unroll 3
   for (std::size_t d = 0; d < 2; ++d) {
     const double S0 = x[0][d][i + 1] + x[0][d][i], T0 = x[0][d][i + 1] - x[0][d][i];
     const double S1 = x[1][d][i + 1] + x[1][d][i], T1 = x[1][d][i + 1] - x[1][d][i];
@@ -103,6 +109,7 @@ template <class Pointer> [[gnu::always_inline]] inline Modes<2> modes_at(const N
 
 /// Forces at the corners, minus the derivative by their places: low[row][d][i] at node i, high at node i + 1.
 [[gnu::always_inline]] inline void corner_forces(const Modes<3>& p, const NodeRows<3, double*>& low, const NodeRows<3, double*>& high, int i) {
+#pragma GCC unroll 3
   for (std::size_t d = 0; d < 3; ++d) {
     const double S0 = -p[c2][d] - p[c3][d] + p[c23][d], T0 = p[c1][d] - p[c12][d] - p[c13][d] + p[c123][d];
     const double S1 = p[c2][d] - p[c3][d] - p[c23][d], T1 = p[c1][d] + p[c12][d] - p[c13][d] - p[c123][d];
@@ -116,6 +123,7 @@ template <class Pointer> [[gnu::always_inline]] inline Modes<2> modes_at(const N
 }
 
 [[gnu::always_inline]] inline void corner_forces(const Modes<2>& p, const NodeRows<2, double*>& low, const NodeRows<2, double*>& high, int i) {
+#pragma GCC unroll 3
   for (std::size_t d = 0; d < 2; ++d) {
     const double S0 = p[p0][d] - p[p3][d], T0 = p[p1][d] - p[p13][d];
     const double S1 = p[p0][d] + p[p3][d], T1 = p[p1][d] + p[p13][d];
@@ -126,6 +134,7 @@ template <class Pointer> [[gnu::always_inline]] inline Modes<2> modes_at(const N
 
 [[gnu::always_inline]] inline Strains<3> strain_form(const Modes<3>& c, const Modes<3>& d, const Gradients& a) {
   Strains<3> out;
+#pragma GCC unroll 3
   for (std::size_t point = 0; point < 2; ++point) {
     const double zeta = point == 0 ? -upper_point : upper_point;
     const Vector<3> g1 = slope(a.a1, c[c1], zeta, c[c13]), g2 = slope(a.a2, c[c2], zeta, c[c23]);
@@ -142,6 +151,7 @@ template <class Pointer> [[gnu::always_inline]] inline Modes<2> modes_at(const N
 
 [[gnu::always_inline]] inline Strains<2> strain_form(const Modes<2>& c, const Modes<2>& d, const Gradients& a) {
   Strains<2> out;
+#pragma GCC unroll 3
   for (std::size_t point = 0; point < 2; ++point) {
     const double zeta = point == 0 ? -upper_point : upper_point;
     out[e11_low + point] = dot(slope(a.a1, c[p1], zeta, c[p13]), slope(a.a1, d[p1], zeta, d[p13]));
@@ -192,6 +202,7 @@ template <class Pointer> [[gnu::always_inline]] inline Modes<2> modes_at(const N
 
 /// p += derivative of sum Q_k strain_k by the modes.
 [[gnu::always_inline]] inline void pull_strains(const Strains<3>& Q, const Modes<3>& c, const Gradients& a, Modes<3>& p) {
+#pragma GCC unroll 3
   for (std::size_t point = 0; point < 2; ++point) {
     const double zeta = point == 0 ? -upper_point : upper_point;
     const Vector<3> g1 = slope(a.a1, c[c1], zeta, c[c13]), g2 = slope(a.a2, c[c2], zeta, c[c23]);
@@ -208,6 +219,7 @@ template <class Pointer> [[gnu::always_inline]] inline Modes<2> modes_at(const N
 }
 
 [[gnu::always_inline]] inline void pull_strains(const Strains<2>& Q, const Modes<2>& c, const Gradients& a, Modes<2>& p) {
+#pragma GCC unroll 3
   for (std::size_t point = 0; point < 2; ++point) {
     const double zeta = point == 0 ? -upper_point : upper_point;
     const Vector<2> g1 = slope(a.a1, c[p1], zeta, c[p13]);

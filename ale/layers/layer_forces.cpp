@@ -214,22 +214,21 @@ template <int Dim> int find_corner_forces(const ElementRow<Dim>& row) {
   for (int i = 0; i < sizes.count; ++i) {
     const Gradients a = sizes.gradients(i, three);
     const Modes<Dim> c = modes_at(x, i), c_rate = modes_at(v, i);
-    const bool there = alive[i] != 0;
-    const double V = sizes.volume(i);
-    Strains<Dim> Q = work_stress<Dim>(w, i, V);
+    const double V = alive[i] != 0 ? sizes.volume(i) : 0.0; // an eroded element has strain 0, hence finite stress
+    const Strains<Dim> Q = work_stress<Dim>(w, i, V);
     double total = 0;
+#pragma GCC unroll 9
     for (std::size_t k = 0; k < Q.size(); ++k) {
-      Q[k] = there ? Q[k] : 0.0;
       total += Q[k];
       Q_out[k][i] = Q[k];
     }
     bad += std::abs(total) < std::numeric_limits<double>::infinity() ? 0 : 1;
     Hourglass<Dim> H = hourglass_form(c, c, a);
     const Hourglass<Dim> rate = hourglass_form(c, c_rate, a);
+#pragma GCC unroll 9
     for (std::size_t k = 0; k < H.size(); ++k) {
       const double h = three && (k == 0 || k == 6) ? 2 / a.a1 : three && (k == 1 || k == 7) ? h2 : h3;
-      const double q = V * (0.5 * law.stiffness[k] * H[k] + law.damping[k] * h * rate[k]);
-      H[k] = there ? q : 0.0;
+      H[k] = V * (0.5 * law.stiffness[k] * H[k] + law.damping[k] * h * rate[k]);
       H_out[k][i] = H[k];
     }
     Modes<Dim> p = {};
