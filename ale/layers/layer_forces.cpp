@@ -95,6 +95,8 @@ template <int Dim> struct ElementRow {
   RowSizes sizes;
   std::size_t first; ///< element
   NodeRows<Dim, double*> x, v;
+  std::array<double*, Count<Dim>::strains> Q_out;
+  std::array<double*, Count<Dim>::hourglass> H_out;
 };
 
 template <int Dim> long find_strains(const ElementRow<Dim>& row) {
@@ -200,14 +202,8 @@ template <int Dim> int find_corner_forces(const ElementRow<Dim>& row) {
   const auto x = row.x, v = row.v;
   const auto low = w.low, high = w.high;
   const char* alive = row.s.alive.data() + row.first;
-  std::array<double*, Count<Dim>::strains> Q_out;
-  std::array<double*, Count<Dim>::hourglass> H_out;
-  for (std::size_t k = 0; k < Q_out.size(); ++k) {
-    Q_out[k] = row.s.stress_volume[k].data() + row.first;
-  }
-  for (std::size_t k = 0; k < H_out.size(); ++k) {
-    H_out[k] = row.s.hourglass_volume[k].data() + row.first;
-  }
+  const auto Q_out = row.Q_out;
+  const auto H_out = row.H_out;
   const double h3 = 2 / sizes.a3, h2 = three ? 2 / sizes.a2 : 0.0;
   int bad = 0;
 #pragma GCC ivdep
@@ -276,7 +272,8 @@ template <int Dim> void gather(const ElementRow<Dim>& row, int j, int level) {
 }
 
 template <int Dim> RowReport update_row(LayerStack<Dim>& s, const LawAtRest<Dim>& law, RowScratch<Dim>& scratch, int j, int level, double dt) {
-  const ElementRow<Dim> row{s, law, scratch, row_sizes(s, j, level), s.element(0, j, level), node_rows(s, s.position, j, level), node_rows(s, s.velocity, j, level)};
+  const ElementRow<Dim> row{s, law, scratch, row_sizes(s, j, level), s.element(0, j, level), node_rows(s, s.position, j, level), node_rows(s, s.velocity, j, level),
+                            element_rows<Count<Dim>::strains>(s, s.stress_volume, j, level), element_rows<Count<Dim>::hourglass>(s, s.hourglass_volume, j, level)};
   RowReport report;
   report.crushed = find_strains(row);
   if (!s.rate[0][0].empty()) {
@@ -291,16 +288,17 @@ template <int Dim> RowReport update_row(LayerStack<Dim>& s, const LawAtRest<Dim>
 }
 
 template <int Dim> [[noreturn]] void fail(const LayerStack<Dim>& s) {
-  for (std::size_t e = 0; e < s.element_count(); ++e) {
-    double total = 0;
-    for (const auto& field : s.stress_volume) {
-      total += field[e];
-    }
-    if (!std::isfinite(total)) {
-      const auto n1 = static_cast<std::size_t>(s.grid.elements[0]), n2 = static_cast<std::size_t>(s.grid.elements[1]);
-      const std::size_t i = e % n1, j = e / n1 % n2, level = e / (n1 * n2);
-      throw NumericalFailure(fmt::format("{}: layer {}, element ({}, {}) of level {}: its stress is not finite; it is pressed to nothing or its nodes ran away", s.name,
-                                         level / static_cast<std::size_t>(s.grid.through), i, j, level));
+  for (int level = 0; level < s.grid.levels(); ++level) {
+    for (int j = 0; j < s.grid.elements[1]; ++j) {
+      for (int i = 0; i < s.grid.elements[0]; ++i) {
+        double total = 0;
+        for (const double* stress : element_rows<Count<Dim>::strains>(s, s.stress_volume, j, level)) {
+          total += stress[i];
+        }
+        if (!std::isfinite(total)) {
+          throw NumericalFailure(fmt::format("{}: layer {}, element ({}, {}) of level {}: its stress is not finite; it is pressed to nothing or its nodes ran away", s.name, level / s.grid.through, i, j, level));
+        }
+      }
     }
   }
   throw NumericalFailure(fmt::format("{}: a stress is not finite", s.name));

@@ -20,6 +20,15 @@ template <int Dim, class Field> auto node_rows(const LayerStack<Dim>& s, Field& 
   return rows;
 }
 
+/// Pointers to all strains, or hourglass modes, of the element row (j, level) in stress_volume or hourglass_volume.
+template <std::size_t Kinds, int Dim, class Field> auto element_rows(const LayerStack<Dim>& s, Field& field, int j, int level) {
+  std::array<decltype(field.data()), Kinds> rows;
+  for (std::size_t k = 0; k < Kinds; ++k) {
+    rows[k] = field.data() + s.in_row(k, Kinds, j, level);
+  }
+  return rows;
+}
+
 /// Sizes at rest of the elements of a row.
 struct RowSizes {
   int count = 0;

@@ -118,12 +118,8 @@ template <int Dim> void allocate(LayerStack<Dim>& s) {
     field->assign(elements, 0.0);
   }
   s.alive.assign(elements, 1);
-  for (auto& field : s.stress_volume) {
-    field.assign(elements, 0.0);
-  }
-  for (auto& field : s.hourglass_volume) {
-    field.assign(elements, 0.0);
-  }
+  s.stress_volume.assign(elements * LayerStack<Dim>::strains, 0.0);
+  s.hourglass_volume.assign(elements * LayerStack<Dim>::hourglass_modes, 0.0);
 }
 
 /// Rest positions, and masses from the corner lengths along each axis.

@@ -79,8 +79,9 @@ template <int Dim> struct LayerStack {
 
   // What the step keeps from one phase to the next.
   LayerRest at_rest;
-  std::array<std::vector<double>, strains> stress_volume;            ///< J: stress of each strain times the volume at rest
-  std::array<std::vector<double>, hourglass_modes> hourglass_volume; ///< J: likewise
+  // Rows of elements one after the other, in each all strains, i fastest: apart, as many streams would meet in one cache set.
+  std::vector<double> stress_volume;    ///< J: stress of each strain times the volume at rest
+  std::vector<double> hourglass_volume; ///< J: likewise
   std::array<std::vector<double>, Dim> mean_velocity;                ///< of the last half kick, m/s
   std::array<std::array<std::vector<double>, 2>, 2> rate;            ///< [point][warp, fill] smoothed dE/dt, 1/s; empty unless the law wants it
   double rate_time = 1e-6;                                           ///< s: over which it is smoothed
@@ -92,6 +93,10 @@ template <int Dim> struct LayerStack {
   }
   std::size_t element(int i, int j, int level) const {
     return (static_cast<std::size_t>(level) * static_cast<std::size_t>(grid.elements[1]) + static_cast<std::size_t>(j)) * static_cast<std::size_t>(grid.elements[0]) + static_cast<std::size_t>(i);
+  }
+  /// Where quantity k of `kinds` of the elements (0, j, level) on stands in stress_volume and hourglass_volume.
+  std::size_t in_row(std::size_t k, std::size_t kinds, int j, int level) const {
+    return element(0, j, level) * kinds + k * static_cast<std::size_t>(grid.elements[0]);
   }
   /// The lower plane of nodes of an element level.
   int plane_below(int level) const { return level / grid.through * (grid.through + 1) + level % grid.through; }

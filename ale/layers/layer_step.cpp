@@ -31,14 +31,8 @@ template <int Dim> void book_row(LayerStack<Dim>& s, int j, int level, double ha
   const RowSizes sizes = row_sizes(s, j, level);
   const std::size_t first = s.element(0, j, level);
   const auto x = node_rows(s, s.position, j, level), v = node_rows(s, s.mean_velocity, j, level);
-  std::array<const double*, Count<Dim>::strains> Q;
-  std::array<const double*, Count<Dim>::hourglass> H;
-  for (std::size_t k = 0; k < Q.size(); ++k) {
-    Q[k] = s.stress_volume[k].data() + first;
-  }
-  for (std::size_t k = 0; k < H.size(); ++k) {
-    H[k] = s.hourglass_volume[k].data() + first;
-  }
+  const auto Q = element_rows<Count<Dim>::strains>(s, s.stress_volume, j, level);
+  const auto H = element_rows<Count<Dim>::hourglass>(s, s.hourglass_volume, j, level);
   double *energy = s.energy.data() + first, *hourglass = s.hourglass_energy.data() + first;
 #pragma GCC ivdep
   for (int i = 0; i < sizes.count; ++i) {
