@@ -122,6 +122,21 @@ TEST(SingleElement, ErodesWhenBothFamiliesAreLost) {
   EXPECT_TRUE(std::isinf(stable_step(cube.s).dt));
 }
 
+TEST(SingleElement, StaysUntilBothPointsHaveLostBothFamilies) {
+  Cube cube(fabric_laws::paper());
+  int lost = 0;
+  for (auto& point : cube.s.largest) {
+    for (auto& family : point) {
+      update_forces(cube.s, 0.0, cube.ledger, cube.pool);
+      EXPECT_EQ(cube.s.alive[0], 1) << lost;
+      family[0] = 1;
+      ++lost;
+    }
+  }
+  update_forces(cube.s, 0.0, cube.ledger, cube.pool);
+  EXPECT_EQ(cube.s.alive[0], 0);
+}
+
 TEST(SingleElement, CountsCrushedVolumes) {
   Cube cube(fabric_laws::paper());
   place(cube.s, cube.s.position, [](std::array<double, 3> X) -> std::array<double, 3> { return {0.1 * X[0], 0.4 * X[1], X[2]}; });
