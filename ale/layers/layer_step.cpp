@@ -1,0 +1,146 @@
+#include "ale/layers/layer_step.hpp"
+
+#include "ale/layers/layer_edges.hpp"
+#include "ale/layers/layer_rows.hpp"
+
+#include <limits>
+
+namespace ballast {
+namespace {
+
+using namespace layer_element;
+
+template <int Dim> void accelerate(LayerStack<Dim>& s, double half, ThreadPool& pool) {
+  parallel_ranges(pool, static_cast<int>(s.node_count()), [&](int begin, int end, int) {
+    const double* mass = s.mass.data();
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double *v = s.velocity[d].data(), *mean = s.mean_velocity[d].data();
+      const double* f = s.force[d].data();
+#pragma omp simd
+      for (int n = begin; n < end; ++n) {
+        const double old = v[n], gained = half * f[n] / mass[n];
+        v[n] = old + gained;
+        mean[n] = old + 0.5 * gained;
+      }
+    }
+  });
+}
+
+/// Work of the elements' stresses at the mean velocity over `half`.
+template <int Dim> void book_row(LayerStack<Dim>& s, int j, int level, double half) {
+  const RowSizes sizes = row_sizes(s, j, level);
+  const std::size_t first = s.element(0, j, level);
+  const auto x = node_rows(s, s.position, j, level), v = node_rows(s, s.mean_velocity, j, level);
+  const auto Q = element_rows<Count<Dim>::strains>(s, s.stress_volume, j, level);
+  const auto H = element_rows<Count<Dim>::hourglass>(s, s.hourglass_volume, j, level);
+  double *energy = s.energy.data() + first, *hourglass = s.hourglass_energy.data() + first;
+#pragma GCC ivdep
+  for (int i = 0; i < sizes.count; ++i) {
+    const Gradients a = sizes.gradients(i, Dim == 3);
+    const Modes<Dim> c = modes_at(x, i), c_rate = modes_at(v, i);
+    const Strains<Dim> rate = strain_form(c, c_rate, a);
+    const Hourglass<Dim> held = hourglass_form(c, c_rate, a);
+    double power = 0, held_power = 0;
+    for (std::size_t k = 0; k < rate.size(); ++k) {
+      power += Q[k][i] * rate[k];
+    }
+    for (std::size_t k = 0; k < held.size(); ++k) {
+      held_power += H[k][i] * held[k];
+    }
+    energy[i] += half * power;
+    hourglass[i] += half * held_power;
+  }
+}
+
+} // namespace
+
+template <int Dim> LayerTimestep stable_step(const LayerStack<Dim>& s, double cfl) {
+  LayerTimestep least{std::numeric_limits<double>::infinity()};
+  for (std::size_t e = 0; e < s.element_count(); ++e) {
+    if (s.wave_step[e] < least.dt) {
+      least.dt = s.wave_step[e];
+      least.element = e;
+    }
+  }
+  const auto n1 = static_cast<std::size_t>(s.grid.elements[0]), n2 = static_cast<std::size_t>(s.grid.elements[1]);
+  least.i = static_cast<int>(least.element % n1);
+  least.j = static_cast<int>(least.element / n1 % n2);
+  least.level = static_cast<int>(least.element / (n1 * n2));
+  least.dt *= cfl;
+  return least;
+}
+
+template <int Dim> void kick(LayerStack<Dim>& s, double half, LayerLedger& ledger, ThreadPool& pool) {
+  accelerate(s, half, pool);
+  hold_edges(s, half, ledger);
+  const int rows = s.grid.levels() * s.grid.elements[1];
+  parallel_ranges(pool, rows, [&](int begin, int end, int) {
+    for (int row = begin; row < end; ++row) {
+      book_row(s, row % s.grid.elements[1], row / s.grid.elements[1], half);
+    }
+  });
+}
+
+template <int Dim> void drift(LayerStack<Dim>& s, double dt, ThreadPool& pool) {
+  parallel_ranges(pool, static_cast<int>(s.node_count()), [&](int begin, int end, int) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double* x = s.position[d].data();
+      const double* v = s.velocity[d].data();
+#pragma omp simd
+      for (int n = begin; n < end; ++n) {
+        x[n] += dt * v[n];
+      }
+    }
+  });
+}
+
+template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact) {
+  kick(s, dt / 2, ledger, pool);
+  if (contact) {
+    contact();
+  }
+  drift(s, dt, pool);
+  update_forces(s, dt, ledger, pool);
+  kick(s, dt / 2, ledger, pool);
+}
+
+template <int Dim> LayerTotals totals(const LayerStack<Dim>& s) {
+  LayerTotals t;
+  for (std::size_t n = 0; n < s.node_count(); ++n) {
+    std::array<double, 3> x = {}, v = {};
+    for (std::size_t d = 0; d < Dim; ++d) {
+      x[d] = s.position[d][n], v[d] = s.velocity[d][n];
+    }
+    if (s.axisymmetric) {
+      x = {0, 0, 0};
+    }
+    const double m = s.mass[n];
+    t.mass += m;
+    t.kinetic += 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (std::size_t d = s.axisymmetric ? 1 : 0; d < 3; ++d) {
+      t.momentum[d] += m * v[d];
+    }
+    for (std::size_t d = 0; d < 3; ++d) {
+      const std::size_t a = (d + 1) % 3, b = (d + 2) % 3;
+      t.angular_momentum[d] += m * (x[a] * v[b] - x[b] * v[a]);
+    }
+  }
+  for (std::size_t e = 0; e < s.element_count(); ++e) {
+    t.internal += s.energy[e];
+    t.hourglass += s.hourglass_energy[e];
+  }
+  return t;
+}
+
+template LayerTimestep stable_step<2>(const LayerStack<2>&, double);
+template LayerTimestep stable_step<3>(const LayerStack<3>&, double);
+template void kick<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&);
+template void kick<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&);
+template void drift<2>(LayerStack<2>&, double, ThreadPool&);
+template void drift<3>(LayerStack<3>&, double, ThreadPool&);
+template void substep<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&);
+template void substep<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&);
+template LayerTotals totals<2>(const LayerStack<2>&);
+template LayerTotals totals<3>(const LayerStack<3>&);
+
+} // namespace ballast
