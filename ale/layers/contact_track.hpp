@@ -1,0 +1,64 @@
+// Tracks on which segment of a surface a node has its foot, from step to step.
+//
+// The foot X(a, b) and the gap g of a point x: x = X(a, b) + g N(a, b), with N the interpolated normals; the direction of the
+// force is N/|N| and the offset from foot to node is along it, so a pair's impulses turn nothing. g < 0: the node is inside,
+// however deep. Newton's method from the last foot, then a walk from segment to segment; a node that has lost its foot is
+// looked for among all segments (ale/layers/contact_search).
+#pragma once
+
+#include "ale/layers/contact_surface.hpp"
+
+#include <vector>
+
+namespace ballast {
+
+enum class FootStatus : char {
+  away,   ///< none near; looked for when the surfaces have moved far enough
+  lost,   ///< lost in this step: to be looked for now
+  beside, ///< past an edge, or over a hole
+  behind, ///< came in past an edge or through a hole: no contact until it is outside again
+  front   ///< has its foot on the surface and its side is known
+};
+
+/// Where the nodes of one surface have their feet on another. The first three carry over from step to step, and into a checkpoint.
+template <int Dim> struct ContactTrack {
+  std::vector<FootStatus> status;
+  std::vector<int> segment;
+  std::vector<std::array<double, 2>> local;
+
+  std::vector<double> gap;     ///< m, at the step's start
+  std::vector<double> opening; ///< m/s: the rate of the gap over the step
+  NodeNormals<Dim> normal;     ///< at the foot
+
+  void resize(int nodes);
+};
+
+/// A foot: shares of the corners follow from `local`.
+template <int Dim> struct Foot {
+  std::array<double, 2> local = {0.5, 0.5};
+  double gap = 0;
+  std::array<double, Dim> normal{};
+  bool found = false; ///< on the bilinear patch or its continuation
+};
+
+/// Foot of a point on a segment, starting from `start`.
+template <int Dim>
+Foot<Dim> find_foot(const ContactSurface<Dim>& s, const NodeNormals<Dim>& normals, int segment, const std::array<double, Dim>& point, const std::array<double, 2>& start);
+
+/// Half the longest diagonal of a segment, m.
+template <int Dim> double segment_extent(const ContactSurface<Dim>& s, int segment);
+
+/// Follows the feet of nodes [begin, end) of `nodes` on `other`; `own` and `normals` are the normals of both.
+template <int Dim>
+void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, std::array<int, 2> range,
+                 ContactTrack<Dim>& track);
+
+/// Rate of the gap of a node with its foot there, m/s.
+template <int Dim>
+double opening_rate(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const std::array<double, 2>& local, const std::array<double, Dim>& normal);
+
+/// Notes a foot that was found: side, gap and rate. Came anew (`fresh`): deeper than a tenth of the segment it counts as behind.
+template <int Dim>
+void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& foot, bool fresh, ContactTrack<Dim>& track);
+
+} // namespace ballast
