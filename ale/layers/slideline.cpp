@@ -47,7 +47,7 @@ template <int Dim> std::vector<unsigned char> held_nodes(const LayerStack<Dim>& 
 }
 
 template <int Dim>
-ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, std::array<std::vector<double>, Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held) {
+ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held) {
   const LayerGrid& g = stack.grid;
   const int plane = layer * (g.through + 1) + (upper ? g.through : 0), level = layer * g.through + (upper ? g.through - 1 : 0);
   const std::size_t first = stack.node(0, 0, plane);
@@ -65,7 +65,7 @@ ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, std::array<std::
 }
 
 template <int Dim>
-SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, std::array<std::vector<double>, Dim>& velocity, ThreadPool& pool, const ContactSettings& settings,
+SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, LayerVelocity<Dim>& velocity, ThreadPool& pool, const ContactSettings& settings,
                                    SlidelineState<Dim>& state) {
   const auto count = static_cast<std::size_t>(stack.grid.layers - 1);
   const bool fresh = state.pairs.size() != count;
@@ -116,8 +116,8 @@ SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, std:
 
 #define BALLAST_INSTANTIATE(D)                                                                                                   \
   template std::vector<unsigned char> held_nodes<D>(const LayerStack<D>&);                                                       \
-  template ContactSurface<D> layer_surface<D>(const LayerStack<D>&, std::array<std::vector<double>, D>&, int, bool, const std::vector<unsigned char>&); \
-  template SlidelineReport resolve_slidelines<D>(const LayerStack<D>&, double, std::array<std::vector<double>, D>&, ThreadPool&, const ContactSettings&, SlidelineState<D>&);
+  template ContactSurface<D> layer_surface<D>(const LayerStack<D>&, LayerVelocity<D>&, int, bool, const std::vector<unsigned char>&); \
+  template SlidelineReport resolve_slidelines<D>(const LayerStack<D>&, double, LayerVelocity<D>&, ThreadPool&, const ContactSettings&, SlidelineState<D>&);
 BALLAST_INSTANTIATE(2)
 BALLAST_INSTANTIATE(3)
 #undef BALLAST_INSTANTIATE

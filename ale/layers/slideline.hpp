@@ -8,7 +8,12 @@
 #include "ale/layers/contact.hpp"
 #include "ale/layers/layer_stack.hpp"
 
+#include <type_traits>
+
 namespace ballast {
+
+/// By axis, of all nodes of the stack; Dim follows from the stack.
+template <int Dim> using LayerVelocity = std::type_identity_t<std::array<std::vector<double>, Dim>>;
 
 template <int Dim> struct SlidelineState {
   std::vector<ContactState<Dim>> pairs; ///< from the lowest
@@ -23,7 +28,7 @@ struct SlidelineReport {
 
 /// The surface of a layer that faces up or down; `velocity`: the one that moves nodes in the step.
 template <int Dim>
-ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, std::array<std::vector<double>, Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held);
+ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held);
 
 /// By node of a plane: axes along which the stack's edges let it have no velocity.
 template <int Dim> std::vector<unsigned char> held_nodes(const LayerStack<Dim>& stack);
@@ -31,7 +36,7 @@ template <int Dim> std::vector<unsigned char> held_nodes(const LayerStack<Dim>& 
 /// Changes `velocity` (v + dt/2 a, of all nodes) so that x + dt velocity has no layer inside its neighbour. A new `state`
 /// takes every node to stand over the same node of its neighbour. Same bits for any number of threads.
 template <int Dim>
-SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, std::array<std::vector<double>, Dim>& velocity, ThreadPool& pool, const ContactSettings& settings,
+SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, LayerVelocity<Dim>& velocity, ThreadPool& pool, const ContactSettings& settings,
                                    SlidelineState<Dim>& state);
 
 } // namespace ballast
