@@ -122,13 +122,6 @@ private:
   std::vector<int> segment_;
 };
 
-/// A foot inside its segment.
-bool within(const std::array<double, 2>& local, bool both) {
-  constexpr double slack = 1e-6;
-  const auto in = [](double a) { return a >= -slack && a <= 1 + slack; };
-  return in(local[0]) && (!both || in(local[1]));
-}
-
 template <int Dim>
 void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, const Buckets<Dim>& buckets, ContactTrack<Dim>& track) {
   const Vec<Dim> x = nodes.place(node);
@@ -150,7 +143,7 @@ void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurfac
       return;
     }
     const Foot<Dim> foot = find_foot<Dim>(other, normals, e, x, {0.5, 0.5});
-    if (foot.found && within(foot.local, Dim == 3) && std::abs(foot.gap) <= extent && (segment < 0 || std::abs(foot.gap) < std::abs(best.gap))) {
+    if (foot.found && touches(other, e, foot.local) && std::abs(foot.gap) <= extent && (segment < 0 || std::abs(foot.gap) < std::abs(best.gap))) {
       best = foot;
       segment = e;
     }

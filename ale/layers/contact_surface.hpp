@@ -2,8 +2,6 @@
 //
 // Nodes: (segments[0] + 1) by (segments[1] + 1), the first axis fastest; in 2D a polyline. Segments: four corners (two in 2D),
 // bilinear. The side that touches is `outside` times the normal: X_,0 x X_,1 in 3D, the tangent turned left in 2D.
-// Normals are those of nodes, interpolated: continuous from segment to segment, so a node that slides over a ridge or a valley
-// keeps one foot on the surface and one gap (Puso and Laursen 2004, CMAME 193: the same smoothing for node-to-segment).
 #pragma once
 
 #include <array>
@@ -57,7 +55,7 @@ template <int Dim> using NodeNormals = std::array<std::vector<double>, Dim>;
 /// Fills the normals of the rows [begin, end) of nodes; `normals` has node_count entries.
 template <int Dim> void find_normals(const ContactSurface<Dim>& s, int begin, int end, NodeNormals<Dim>& normals);
 
-/// Shares of the corners at local coordinates in [0, 1].
+/// Shares of the corners at local coordinates, 0 to 1 on the segment.
 template <int Dim> std::array<double, 1 << (Dim - 1)> corner_shares(const std::array<double, 2>& local) {
   if constexpr (Dim == 3) {
     const double a = local[0], b = local[1];

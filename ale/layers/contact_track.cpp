@@ -7,7 +7,6 @@ namespace ballast {
 
 namespace {
 
-constexpr double edge_slack = 1e-6; ///< of a segment: so far past an edge a node still touches
 constexpr double entry_depth = 0.1; ///< of a segment's extent: a node that comes in deeper came in from behind
 constexpr int longest_walk = 64;    ///< segments
 
@@ -63,6 +62,10 @@ template <int Dim> struct Patch {
   }
 };
 
+/// A vector across a patch with these tangents, not of unit length.
+Vec<3> upright(const Vec<3>& a, const Vec<3>& b) { return cross(a, b); }
+Vec<2> upright(const Vec<2>& a, const Vec<2>&) { return {-a[1], a[0]}; }
+
 template <int Dim> void add(Vec<Dim>& v, double factor, const Vec<Dim>& w) {
   for (std::size_t d = 0; d < Dim; ++d) {
     v[d] += factor * w[d];
@@ -93,8 +96,6 @@ int walk(double local, int at, int count) {
   const int by = local < -1e-9 ? std::max(static_cast<int>(std::floor(std::max(local, -16.0))), -at) : local > 1 + 1e-9 ? std::min(static_cast<int>(std::min(local, 16.0)), count - 1 - at) : 0;
   return by;
 }
-
-bool inside(double local) { return local >= -edge_slack && local <= 1 + edge_slack; }
 
 } // namespace
 
@@ -153,6 +154,44 @@ Foot<Dim> find_foot(const ContactSurface<Dim>& s, const NodeNormals<Dim>& normal
   return foot;
 }
 
+template <int Dim> Foot<Dim> orthogonal_foot(const ContactSurface<Dim>& s, int segment, const std::array<double, Dim>& point, const Foot<Dim>& foot) {
+  const Patch<Dim> place(s.position, s.corners_of(segment));
+  double a = foot.local[0], b = foot.local[1];
+  Foot<Dim> out;
+  for (int iteration = 0; iteration < 8 && !out.found; ++iteration) {
+    const Vec<Dim> x_a = place.along_a(b), x_b = place.along_b(a);
+    Vec<Dim> r = point;
+    add<Dim>(r, -1, place.value(a, b));
+    const double aa = dot<Dim>(x_a, x_a), ra = dot<Dim>(r, x_a);
+    if (iteration == 0 && foot.gap * foot.gap > 0.01 * aa) {
+      return foot;
+    }
+    double da = ra / aa, db = 0;
+    if constexpr (Dim == 3) { // Newton's method of r.X_a = r.X_b = 0
+      const double bb = dot<3>(x_b, x_b), rb = dot<3>(r, x_b), ab = dot<3>(x_a, x_b) - dot<3>(r, place.f_ab), det = aa * bb - ab * ab;
+      if (!(det > 1e-6 * aa * bb)) {
+        return foot;
+      }
+      da = (ra * bb - rb * ab) / det;
+      db = (rb * aa - ra * ab) / det;
+    }
+    a += da;
+    b += db;
+    out.found = std::abs(da) + std::abs(db) < 1e-8;
+  }
+  Vec<Dim> r = point, n = upright(place.along_a(b), place.along_b(a));
+  add<Dim>(r, -1, place.value(a, b));
+  const double scale = s.outside / std::sqrt(dot<Dim>(n, n));
+  for (double& c : n) {
+    c *= scale;
+  }
+  out.local = {a, b};
+  out.gap = dot<Dim>(r, n);
+  out.normal = n;
+  const bool near = std::abs(a - foot.local[0]) + std::abs(b - foot.local[1]) < 0.1;
+  return out.found && near ? out : foot;
+}
+
 template <int Dim> double segment_extent(const ContactSurface<Dim>& s, int segment) {
   const auto corner = s.corners_of(segment);
   double square = 0;
@@ -181,13 +220,11 @@ double opening_rate(const ContactSurface<Dim>& nodes, int node, const ContactSur
 }
 
 template <int Dim>
-void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& foot, bool fresh, ContactTrack<Dim>& track) {
+void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& found, bool fresh, ContactTrack<Dim>& track) {
+  const Foot<Dim> foot = orthogonal_foot<Dim>(other, segment, nodes.place(node), found);
   const auto n = static_cast<std::size_t>(node);
   track.segment[n] = segment;
   track.local[n] = foot.local;
-  for (double& c : track.local[n]) {
-    c = std::clamp(c, 0.0, 1.0);
-  }
   track.gap[n] = foot.gap;
   FootStatus& status = track.status[n];
   if (fresh) {
@@ -219,7 +256,7 @@ void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface
     const int i = segment % other.segments[0], j = segment / other.segments[0];
     const int di = walk(foot.local[0], i, other.segments[0]), dj = Dim == 3 ? walk(foot.local[1], j, other.segments[1]) : 0;
     if (di == 0 && dj == 0) {
-      if (inside(foot.local[0]) && (Dim == 2 || inside(foot.local[1])) && other.there(segment)) {
+      if (touches(other, segment, foot.local) && other.there(segment)) {
         note_foot<Dim>(nodes, node, other, segment, foot, fresh, track);
       } else {
         track.status[n] = FootStatus::beside;
@@ -257,6 +294,7 @@ void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, 
 #define BALLAST_INSTANTIATE(D)                                                                                                   \
   template struct ContactTrack<D>;                                                                                               \
   template Foot<D> find_foot<D>(const ContactSurface<D>&, const NodeNormals<D>&, int, const std::array<double, D>&, const std::array<double, 2>&); \
+  template Foot<D> orthogonal_foot<D>(const ContactSurface<D>&, int, const std::array<double, D>&, const Foot<D>&);             \
   template double segment_extent<D>(const ContactSurface<D>&, int);                                                              \
   template void track_nodes<D>(const ContactSurface<D>&, const NodeNormals<D>&, const ContactSurface<D>&, const NodeNormals<D>&, std::array<int, 2>, ContactTrack<D>&); \
   template double opening_rate<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const std::array<double, 2>&, const std::array<double, D>&); \

@@ -1,9 +1,10 @@
 // Tracks on which segment of a surface a node has its foot, from step to step.
 //
-// The foot X(a, b) and the gap g of a point x: x = X(a, b) + g N(a, b), with N the interpolated normals; the direction of the
-// force is N/|N| and the offset from foot to node is along it, so a pair's impulses turn nothing. g < 0: the node is inside,
-// however deep. Newton's method from the last foot, then a walk from segment to segment; a node that has lost its foot is
-// looked for among all segments (ale/layers/contact_search).
+// Which segment: x = X(a, b) + g N(a, b), with N the interpolated normals of nodes, has one solution near the surface that is
+// continuous from segment to segment, over ridges and valleys. The foot itself is then the orthogonal one on that segment's
+// patch or its continuation: the gap changes at the rate n.(u_s - sum phi_k u_k) and the force along n turns nothing.
+// g < 0: the node is inside, however deep. Newton's method from the last foot, then a walk from segment to segment; a node
+// that has lost its foot is looked for among all segments (ale/layers/contact_search).
 #pragma once
 
 #include "ale/layers/contact_surface.hpp"
@@ -41,9 +42,24 @@ template <int Dim> struct Foot {
   bool found = false; ///< on the bilinear patch or its continuation
 };
 
-/// Foot of a point on a segment, starting from `start`.
+/// Foot along the interpolated normals, starting from `start`.
 template <int Dim>
 Foot<Dim> find_foot(const ContactSurface<Dim>& s, const NodeNormals<Dim>& normals, int segment, const std::array<double, Dim>& point, const std::array<double, 2>& start);
+
+/// Orthogonal foot near `foot`; `foot` itself where it is too far from the patch for that to matter.
+template <int Dim> Foot<Dim> orthogonal_foot(const ContactSurface<Dim>& s, int segment, const std::array<double, Dim>& point, const Foot<Dim>& foot);
+
+/// The foot lies on its segment, or so little past an outer edge that the segment's continuation serves: sheets whose edges
+/// meet keep touching there while they bend.
+template <int Dim> bool touches(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local) {
+  const std::array<int, 2> at = {segment % s.segments[0], segment / s.segments[0]};
+  bool in = true;
+  for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
+    const double low = at[axis] == 0 ? 0.1 : 1e-9, high = at[axis] == s.segments[axis] - 1 ? 0.1 : 1e-9;
+    in = in && local[axis] >= -low && local[axis] <= 1 + high;
+  }
+  return in;
+}
 
 /// Half the longest diagonal of a segment, m.
 template <int Dim> double segment_extent(const ContactSurface<Dim>& s, int segment);
@@ -57,7 +73,7 @@ void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, 
 template <int Dim>
 double opening_rate(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const std::array<double, 2>& local, const std::array<double, Dim>& normal);
 
-/// Notes a foot that was found: side, gap and rate. Came anew (`fresh`): deeper than a tenth of the segment it counts as behind.
+/// Notes a foot that find_foot gave: side, gap and rate of the orthogonal one. Came anew (`fresh`): deeper than a tenth of the segment it counts as behind.
 template <int Dim>
 void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& foot, bool fresh, ContactTrack<Dim>& track);
 
