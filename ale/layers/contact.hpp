@@ -7,9 +7,13 @@
 //   impulse  lambda = max(0, lambda + (asked - c)/W): n lambda on the node, -phi_k n lambda on the corners
 // by Gauss-Seidel in the order of the nodes, lambda the step's total: what an earlier sweep gave too much is taken back.
 // Impulses are equal, opposite and along the line through node and foot: momentum and angular momentum stay to round-off.
-// Energy: with c = velocity (weight 1) and gaps asked for only, the change is lambda.c - lambda W lambda / 2 <= 0. Penetration is pushed
-// out at most as fast as the surfaces came together; where the sum of a step should still gain, the step is done again
-// without pushing. Coulomb friction, static = kinetic: a total of at most mu lambda along the surface.
+// Energy: the loss is -sum J.(v_old + v_new)/2. v_old is the velocity before contact, so the loss is that of kinetic energy on
+// the spot: lambda W lambda / 2 - lambda.c >= 0 where only gaps are asked for. Given velocity_n or force it is the velocity with which the
+// step before ended, and the loss is what a ledger of stress work (by mean velocities, or by the trapezoidal rule of velocity-Verlet)
+// has to find: a surface that is pressed and rests then loses nothing.
+// Penetration is pushed out at most as fast as the surfaces came together, and only with energy that the pair's contact took
+// before: a step that would give back more than that is done again without pushing.
+// Coulomb friction, static = kinetic: a total of at most mu lambda along the surface.
 #pragma once
 
 #include "ale/layers/contact_track.hpp"
@@ -27,7 +31,7 @@ struct ContactSettings {
 
 /// What a step's contact did.
 struct ContactReport {
-  double loss = 0;          ///< J: kinetic energy lost, sum of J.(velocity before + after)/2, friction's part too
+  double loss = 0;          ///< J: energy lost, friction's part too
   double friction_loss = 0; ///< J: of that, by friction
   double deepest = 0;       ///< m: largest penetration at the step's start
   std::array<double, 3> deepest_at = {0, 0, 0}; ///< m
@@ -42,10 +46,11 @@ struct ContactReport {
 /// Adds what another pair did: sums, largest values.
 void add_report(ContactReport& to, const ContactReport& part);
 
-/// What contact keeps from step to step (tracks[s]: nodes of surface s; travel) and its work arrays.
+/// What contact keeps from step to step (tracks[s]: nodes of surface s; travel, taken) and its work arrays.
 template <int Dim> struct ContactState {
   std::array<ContactTrack<Dim>, 2> tracks;
   double travel = 0; ///< m: the surfaces' movement since nodes that are away were looked for
+  double taken = 0;  ///< J: lost so far without friction
 
   std::array<NodeNormals<Dim>, 2> normals;
   std::array<std::array<std::vector<double>, Dim>, 2> before; ///< velocities

@@ -47,13 +47,14 @@ public:
     keep_velocities();
     iterate(report, settings_.push_out);
     account(report);
-    if (pushes_ && report.loss < report.friction_loss) { // pushing out would gain energy
+    if (pushes_ && state_.taken + report.loss < report.friction_loss) {
       restore_velocities();
       clear();
       list(false, 0);
       iterate(report, 0);
       account(report);
     }
+    state_.taken += report.loss - report.friction_loss;
     return report;
   }
 
@@ -159,7 +160,6 @@ private:
   }
 
   void iterate(ContactReport& report, double push_out) {
-    report.friction_loss = 0;
     report.sweeps = 0;
     double first = 0;
     for (int round = 0; round < settings_.rounds; ++round) {
@@ -167,7 +167,7 @@ private:
       for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
         worst = 0;
         for (ContactPoint<Dim>& p : points_) {
-          worst = std::max(worst, relax(p, report.friction_loss));
+          worst = std::max(worst, relax(p));
         }
         ++report.sweeps;
         first = std::max(first, worst);
@@ -216,7 +216,7 @@ private:
   }
 
   /// One point's turn; the change of its velocities that it needed, m/s.
-  double relax(ContactPoint<Dim>& p, double& friction_loss) {
+  double relax(ContactPoint<Dim>& p) {
     const Vec<Dim> u = slip(p, surfaces_[p.side]->weight, surfaces_[1 - p.side]->weight);
     double opening = p.fixed;
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -233,13 +233,13 @@ private:
       p.impulse = total;
     }
     if (settings_.friction > 0) {
-      needed = std::max(needed, rub(p, friction_loss));
+      needed = std::max(needed, rub(p));
     }
     return needed;
   }
 
   /// Friction of one point: towards no slip, total at most mu times the pressing one.
-  double rub(ContactPoint<Dim>& p, double& friction_loss) {
+  double rub(ContactPoint<Dim>& p) {
     const Vec<Dim> u = slip(p, 1, 1);
     double along = 0;
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -260,22 +260,35 @@ private:
     }
     if (size > 0) {
       push(p, change);
-      const Vec<Dim> after = slip(p, 1, 1);
-      for (std::size_t d = 0; d < Dim; ++d) {
-        friction_loss -= 0.5 * change[d] * (u[d] + after[d]);
-      }
     }
     return std::sqrt(size) * p.per_slip;
   }
 
+  double mean_velocity(std::size_t s, std::size_t d, int node) const {
+    const ContactSurface<Dim>& a = *surfaces_[s];
+    return 0.5 * (a.old_velocity(d, node, dt_, state_.before[s][d][static_cast<std::size_t>(node)]) + a.velocity[d][node]);
+  }
+
+  double friction_work(const ContactPoint<Dim>& p) const {
+    double work = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double u = mean_velocity(p.side, d, p.node);
+      for (std::size_t c = 0; c < p.corners; ++c) {
+        u -= p.share[c] * mean_velocity(1 - p.side, d, p.corner[c]);
+      }
+      work += p.friction[d] * u;
+    }
+    return work;
+  }
+
   void account(ContactReport& report) const {
-    report.loss = 0;
-    report.impulse = 0;
+    report.loss = report.friction_loss = report.impulse = 0;
     report.active = 0;
     report.impulse_sum = {0, 0, 0};
     for (const ContactPoint<Dim>& p : points_) {
       report.active += p.impulse > 0 ? 1 : 0;
       report.impulse += p.impulse;
+      report.friction_loss -= settings_.friction > 0 ? friction_work(p) : 0.0;
     }
     const bool held = surfaces_[0]->held != nullptr || surfaces_[1]->held != nullptr;
     for (std::size_t s = 0; s < 2; ++s) {
@@ -286,8 +299,8 @@ private:
           continue;
         }
         for (std::size_t d = 0; d < Dim; ++d) {
-          const double v0 = state_.before[s][d][n], v1 = a.velocity[d][node], change = a.mass[node] * (v1 - v0);
-          report.loss -= 0.5 * change * (v0 + v1);
+          const double change = a.mass[node] * (a.velocity[d][node] - state_.before[s][d][n]);
+          report.loss -= change * mean_velocity(s, d, node);
           report.impulse_sum[d] += held ? change : 0;
         }
       }

@@ -56,6 +56,7 @@ ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Di
   for (std::size_t d = 0; d < Dim; ++d) {
     s.position[d] = stack.position[d].data() + first;
     s.velocity[d] = velocity[d].data() + first;
+    s.force[d] = stack.force[d].data() + first;
   }
   s.mass = stack.mass.data() + first;
   s.outside = upper ? 1 : -1;

@@ -33,8 +33,9 @@ ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Di
 /// By node of a plane: axes along which the stack's edges let it have no velocity.
 template <int Dim> std::vector<unsigned char> held_nodes(const LayerStack<Dim>& stack);
 
-/// Changes `velocity` (v + dt/2 a, of all nodes) so that x + dt velocity has no layer inside its neighbour. A new `state`
-/// takes every node to stand over the same node of its neighbour. Same bits for any number of threads.
+/// Changes `velocity` (v + dt/2 a with a = force/mass, of all nodes) so that x + dt velocity has no layer inside its neighbour. A new `state`
+/// takes every node to stand over the same node of its neighbour. Losses are those of a ledger whose stresses work -dt velocity.(force + next force)/2.
+/// Same bits for any number of threads.
 template <int Dim>
 SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, LayerVelocity<Dim>& velocity, ThreadPool& pool, const ContactSettings& settings,
                                    SlidelineState<Dim>& state);
