@@ -42,7 +42,7 @@ template <int Dim> void search_missing(const Surfaces<Dim>& surfaces, double dt,
   state.travel = due ? 0 : state.travel;
   for (std::size_t s = 0; s < 2; ++s) {
     if (lost[s] || (due && away[s])) {
-      search_feet<Dim>(*surfaces[s], state.normals[s], *surfaces[1 - s], state.normals[1 - s], due, state.tracks[s]);
+      search_feet<Dim>(*surfaces[s], state.normals[s], *surfaces[1 - s], state.normals[1 - s], dt, due, state.tracks[s]);
     }
   }
 }
@@ -102,7 +102,7 @@ ContactReport resolve_contact(ContactSurface<Dim>& a, ContactSurface<Dim>& b, do
   }
   for (std::size_t s = 0; s < 2; ++s) {
     over(surfaces[s]->node_count(), [&](int begin, int end, int) {
-      track_nodes<Dim>(*surfaces[s], state.normals[s], *surfaces[1 - s], state.normals[1 - s], {begin, end}, state.tracks[s]);
+      track_nodes<Dim>(*surfaces[s], state.normals[s], *surfaces[1 - s], state.normals[1 - s], dt, {begin, end}, state.tracks[s]);
     });
   }
   return solve_contact(surfaces, dt, settings, state);

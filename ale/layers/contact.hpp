@@ -23,7 +23,7 @@ namespace ballast {
 
 struct ContactSettings {
   double friction = 0;     ///< Coulomb's coefficient
-  double push_out = 0.1;   ///< share of a penetration taken back in a step
+  double push_out = 0.3;   ///< share of a penetration taken back in a step
   int sweeps = 20;         ///< of Gauss-Seidel at most, each round
   int rounds = 4;          ///< at most: sweeps, then nodes that were driven into contact join
   double tolerance = 1e-4; ///< of the step's largest violation: sweeps end below

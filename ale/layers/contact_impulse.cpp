@@ -27,6 +27,16 @@ template <int Dim> struct ContactPoint {
   Vec<Dim> friction{};
 };
 
+/// A foot that may become a contact point.
+template <int Dim> struct Candidate {
+  std::size_t side;
+  int node, segment;
+  std::array<double, 2> local;
+  Vec<Dim> normal;
+  double gap, opening; ///< opening: before contact
+  bool listed;
+};
+
 /// What the opening of a node has to be at least.
 double asked_opening(double gap, double opening, double dt, double push_out) {
   return gap >= 0 ? -gap / dt : std::min(push_out * -gap / dt, std::max(0.0, -opening));
@@ -40,6 +50,7 @@ public:
     ContactReport report;
     clear();
     measure(report);
+    find_candidates();
     list(false, settings_.push_out);
     if (points_.empty()) {
       return report;
@@ -62,6 +73,9 @@ private:
   void clear() {
     points_.clear();
     pushes_ = false;
+    for (Candidate<Dim>& c : candidates_) {
+      c.listed = false;
+    }
     for (std::size_t s = 0; s < 2; ++s) {
       std::fill(state_.touched[s].begin(), state_.touched[s].end(), char(0));
       std::fill(state_.listed[s].begin(), state_.listed[s].end(), char(0));
@@ -87,35 +101,103 @@ private:
     }
   }
 
-  /// Lists the nodes that ask for more than they have; `driven`: among those near an impulse that are not listed yet.
-  void list(bool driven, double push_out) {
+  /// Feet that nodes may come to in the step: those tracked, and beyond a side that they leave, where the surface rises there.
+  void find_candidates() {
+    candidates_.clear();
     for (std::size_t s = 0; s < 2; ++s) {
       const ContactTrack<Dim>& t = state_.tracks[s];
-      const ContactSurface<Dim>&a = *surfaces_[s], &b = *surfaces_[1 - s];
-      for (int node = 0; node < a.node_count(); ++node) {
+      for (int node = 0; node < surfaces_[s]->node_count(); ++node) {
         const auto n = static_cast<std::size_t>(node);
-        if (t.status[n] != FootStatus::front || state_.listed[s][n] != 0 || (driven && !near_impulse(s, node))) {
-          continue;
-        }
-        const double asked = asked_opening(t.gap[n], t.opening[n], dt_, push_out);
-        const double opening = driven ? opening_rate<Dim>(a, node, b, t.segment[n], t.local[n], normal_at(t, n)) : t.opening[n];
-        if (opening < asked) {
-          state_.listed[s][n] = 1;
-          pushes_ = pushes_ || asked > 0;
-          points_.push_back(make_point(s, node, asked));
+        if (t.status[n] == FootStatus::front && t.leaves[n] != 0) {
+          add_neighbours(s, node);
         }
       }
     }
   }
 
-  bool near_impulse(std::size_t s, int node) const {
+  void add_neighbours(std::size_t s, int node) {
+    const ContactTrack<Dim>& t = state_.tracks[s];
+    const ContactSurface<Dim>&a = *surfaces_[s], &b = *surfaces_[1 - s];
+    const auto n = static_cast<std::size_t>(node);
+    const std::array<int, 2> at = {t.segment[n] % b.segments[0], t.segment[n] / b.segments[0]}, stride = {1, b.segments[0]};
+    for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
+      for (int side = 0; side < 2; ++side) {
+        const int step = side == 0 ? -1 : 1, to = at[axis] + step, segment = t.segment[n] + step * stride[axis];
+        if ((t.leaves[n] >> (2 * axis + static_cast<std::size_t>(side)) & 1) == 0 || to < 0 || to >= b.segments[axis] || !b.there(segment)) {
+          continue;
+        }
+        Foot<Dim> foot;
+        foot.local = t.local[n];
+        foot.local[axis] = side == 0 ? 1 : 0;
+        foot = orthogonal_foot<Dim>(b, segment, a.place(node), foot);
+        if (foot.found && rises(b, segment, axis, step, foot, normal_at(t, n))) {
+          const Vec<Dim> u = relative_velocity<Dim>(a, node, b, segment, foot.local);
+          candidates_.push_back({s, node, segment, foot.local, foot.normal, foot.gap, dot(u, foot.normal), false});
+        }
+      }
+    }
+  }
+
+  /// The next segment along an axis turns towards the side that touches: a valley between them.
+  static bool rises(const ContactSurface<Dim>& b, int segment, std::size_t axis, int step, const Foot<Dim>& foot, const Vec<Dim>& normal) {
+    const auto corner = b.corners_of(segment);
+    const int from = corner[0], to = corner[axis == 0 ? 1 : 2];
+    double up = 0, turn = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double along = step * (b.position[d][to] - b.position[d][from]);
+      up += along * normal[d];
+      turn += foot.normal[d] * normal[d];
+    }
+    return up > 0 && turn > -0.9;
+  }
+
+  /// Lists the nodes that ask for more than they have; `driven`: among those near an impulse that are not listed yet.
+  void list(bool driven, double push_out) {
+    for (std::size_t s = 0; s < 2; ++s) {
+      const ContactTrack<Dim>& t = state_.tracks[s];
+      for (int node = 0; node < surfaces_[s]->node_count(); ++node) {
+        const auto n = static_cast<std::size_t>(node);
+        if (t.status[n] != FootStatus::front || state_.listed[s][n] != 0 || (driven && !near_impulse(s, node, t.segment[n]))) {
+          continue;
+        }
+        if (driven || t.opening[n] < asked_opening(t.gap[n], t.opening[n], dt_, push_out)) {
+          state_.listed[s][n] = list_foot({s, node, t.segment[n], t.local[n], normal_at(t, n), t.gap[n], t.opening[n], false}, driven, push_out) ? 1 : 0;
+        }
+      }
+    }
+    for (Candidate<Dim>& c : candidates_) {
+      if (!c.listed && (!driven || near_impulse(c.side, c.node, c.segment))) {
+        c.listed = list_foot(c, driven, push_out);
+      }
+    }
+  }
+
+  bool list_foot(const Candidate<Dim>& c, bool driven, double push_out) {
+    const double asked = asked_opening(c.gap, c.opening, dt_, push_out);
+    const double opening = driven ? dot(relative_velocity<Dim>(*surfaces_[c.side], c.node, *surfaces_[1 - c.side], c.segment, c.local), c.normal) : c.opening;
+    if (!(opening < asked)) {
+      return false;
+    }
+    pushes_ = pushes_ || asked > 0;
+    points_.push_back(make_point(c, asked));
+    return true;
+  }
+
+  bool near_impulse(std::size_t s, int node, int segment) const {
     bool near = state_.touched[s][static_cast<std::size_t>(node)] != 0;
-    for (const int c : surfaces_[1 - s]->corners_of(state_.tracks[s].segment[static_cast<std::size_t>(node)])) {
+    for (const int c : surfaces_[1 - s]->corners_of(segment)) {
       near = near || state_.touched[1 - s][static_cast<std::size_t>(c)] != 0;
     }
     return near;
   }
 
+  static double dot(const Vec<Dim>& a, const Vec<Dim>& b) {
+    double sum = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      sum += a[d] * b[d];
+    }
+    return sum;
+  }
   static Vec<Dim> normal_at(const ContactTrack<Dim>& t, std::size_t n) {
     Vec<Dim> v;
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -124,14 +206,12 @@ private:
     return v;
   }
 
-  ContactPoint<Dim> make_point(std::size_t s, int node, double asked) {
-    const ContactTrack<Dim>& t = state_.tracks[s];
-    const auto n = static_cast<std::size_t>(node);
-    const ContactSurface<Dim>&a = *surfaces_[s], &b = *surfaces_[1 - s];
-    ContactPoint<Dim> p{s, node, b.corners_of(t.segment[n]), corner_shares<Dim>(t.local[n]), normal_at(t, n), asked, 0, 0, 0, 0, {}};
+  ContactPoint<Dim> make_point(const Candidate<Dim>& from, double asked) {
+    const ContactSurface<Dim>&a = *surfaces_[from.side], &b = *surfaces_[1 - from.side];
+    ContactPoint<Dim> p{from.side, from.node, b.corners_of(from.segment), corner_shares<Dim>(from.local), from.normal, asked, 0, 0, 0, 0, {}};
     for (std::size_t d = 0; d < Dim; ++d) {
       const int axis = static_cast<int>(d);
-      double w = a.weight * a.inverse_mass(node, axis), u = a.weight_n != 0 ? a.weight_n * a.velocity_n[d][node] : 0.0;
+      double w = a.weight * a.inverse_mass(p.node, axis), u = a.weight_n != 0 ? a.weight_n * a.velocity_n[d][p.node] : 0.0;
       for (std::size_t c = 0; c < p.corners; ++c) {
         w += p.share[c] * p.share[c] * b.weight * b.inverse_mass(p.corner[c], axis);
         u -= b.weight_n != 0 ? p.share[c] * b.weight_n * b.velocity_n[d][p.corner[c]] : 0.0;
@@ -312,6 +392,7 @@ private:
   const ContactSettings& settings_;
   ContactState<Dim>& state_;
   std::vector<ContactPoint<Dim>> points_;
+  std::vector<Candidate<Dim>> candidates_;
   bool pushes_ = false;
 };
 

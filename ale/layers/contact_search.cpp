@@ -123,7 +123,7 @@ private:
 };
 
 template <int Dim>
-void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, const Buckets<Dim>& buckets, ContactTrack<Dim>& track) {
+void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, const Buckets<Dim>& buckets, double dt, ContactTrack<Dim>& track) {
   const Vec<Dim> x = nodes.place(node);
   Foot<Dim> best;
   int segment = -1, nearest = -1;
@@ -150,7 +150,7 @@ void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurfac
   });
   const auto n = static_cast<std::size_t>(node);
   if (segment >= 0) {
-    note_foot<Dim>(nodes, node, other, segment, best, true, track);
+    note_foot<Dim>(nodes, node, other, segment, best, true, dt, track);
     return;
   }
   const bool was_away = track.status[n] == FootStatus::away;
@@ -164,7 +164,7 @@ void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurfac
 } // namespace
 
 template <int Dim>
-void search_feet(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, bool all, ContactTrack<Dim>& track) {
+void search_feet(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, bool all, ContactTrack<Dim>& track) {
   const Buckets<Dim> buckets(other);
   for (int node = 0; node < nodes.node_count(); ++node) {
     const auto n = static_cast<std::size_t>(node);
@@ -174,7 +174,7 @@ void search_feet(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, 
     }
     const FootStatus status = track.status[n];
     if (sheet && (status == FootStatus::lost || (all && status == FootStatus::away))) {
-      search_foot<Dim>(nodes, node, other, normals, buckets, track);
+      search_foot<Dim>(nodes, node, other, normals, buckets, dt, track);
     }
   }
 }
@@ -189,8 +189,8 @@ template <int Dim> double search_again_after(const ContactSurface<Dim>& other) {
   return 0.05 * smallest;
 }
 
-template void search_feet<2>(const ContactSurface<2>&, const NodeNormals<2>&, const ContactSurface<2>&, const NodeNormals<2>&, bool, ContactTrack<2>&);
-template void search_feet<3>(const ContactSurface<3>&, const NodeNormals<3>&, const ContactSurface<3>&, const NodeNormals<3>&, bool, ContactTrack<3>&);
+template void search_feet<2>(const ContactSurface<2>&, const NodeNormals<2>&, const ContactSurface<2>&, const NodeNormals<2>&, double, bool, ContactTrack<2>&);
+template void search_feet<3>(const ContactSurface<3>&, const NodeNormals<3>&, const ContactSurface<3>&, const NodeNormals<3>&, double, bool, ContactTrack<3>&);
 template double search_again_after<2>(const ContactSurface<2>&);
 template double search_again_after<3>(const ContactSurface<3>&);
 

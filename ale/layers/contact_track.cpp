@@ -106,6 +106,7 @@ template <int Dim> void ContactTrack<Dim>::resize(int nodes) {
   local.resize(n, {0.5, 0.5});
   gap.resize(n);
   opening.resize(n);
+  leaves.resize(n);
   for (std::vector<double>& c : normal) {
     c.resize(n);
   }
@@ -204,45 +205,70 @@ template <int Dim> double segment_extent(const ContactSurface<Dim>& s, int segme
 }
 
 template <int Dim>
-double opening_rate(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const std::array<double, 2>& local, const std::array<double, Dim>& normal) {
+std::array<double, Dim> relative_velocity(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const std::array<double, 2>& local) {
   const auto corner = other.corners_of(segment);
   const auto share = corner_shares<Dim>(local);
-  double rate = 0;
   const auto moved = [](const ContactSurface<Dim>& s, std::size_t d, int n) { return s.weight * s.velocity[d][n] + (s.weight_n != 0 ? s.weight_n * s.velocity_n[d][n] : 0.0); };
+  Vec<Dim> u;
   for (std::size_t d = 0; d < Dim; ++d) {
-    double u = moved(nodes, d, node);
+    u[d] = moved(nodes, d, node);
     for (std::size_t c = 0; c < corner.size(); ++c) {
-      u -= share[c] * moved(other, d, corner[c]);
+      u[d] -= share[c] * moved(other, d, corner[c]);
     }
-    rate += normal[d] * u;
   }
-  return rate;
+  return u;
 }
 
+namespace {
+
+/// Bits of the sides of its segment that a foot leaves while it moves by `way`, for a node near enough to touch meanwhile.
 template <int Dim>
-void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& found, bool fresh, ContactTrack<Dim>& track) {
+unsigned char sides_left(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local, double gap, const Vec<Dim>& way) {
+  unsigned bits = 0;
+  if (gap > 0 && gap * gap > dot<Dim>(way, way)) {
+    return 0;
+  }
+  const Patch<Dim> place(s.position, s.corners_of(segment));
+  for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
+    const Vec<Dim> along = axis == 0 ? place.along_a(local[1]) : place.along_b(local[0]);
+    const double by = dot<Dim>(way, along) / dot<Dim>(along, along);
+    bits |= (by < 0 && local[axis] + by < 0 ? 1U : by > 0 && local[axis] + by > 1 ? 2U : 0U) << 2 * axis;
+  }
+  return static_cast<unsigned char>(bits);
+}
+
+} // namespace
+
+template <int Dim>
+void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& found, bool fresh, double dt, ContactTrack<Dim>& track) {
   const Foot<Dim> foot = orthogonal_foot<Dim>(other, segment, nodes.place(node), found);
   const auto n = static_cast<std::size_t>(node);
   track.segment[n] = segment;
   track.local[n] = foot.local;
   track.gap[n] = foot.gap;
   FootStatus& status = track.status[n];
-  if (fresh) {
+  const auto past = [](double a) { return a < 0 || a > 1; };
+  if (fresh && foot.gap < 0 && (past(found.local[0]) || (Dim == 3 && past(found.local[1])))) {
+    status = FootStatus::beside;
+  } else if (fresh) {
     status = foot.gap < -entry_depth * segment_extent(other, segment) ? FootStatus::behind : FootStatus::front;
   } else if (status == FootStatus::behind && foot.gap >= 0) {
     status = FootStatus::front;
   }
+  Vec<Dim> u = relative_velocity<Dim>(nodes, node, other, segment, track.local[n]);
+  track.opening[n] = dot<Dim>(u, foot.normal);
   for (std::size_t d = 0; d < Dim; ++d) {
     track.normal[d][n] = foot.normal[d];
+    u[d] *= dt;
   }
-  track.opening[n] = opening_rate<Dim>(nodes, node, other, segment, track.local[n], foot.normal);
+  track.leaves[n] = sides_left<Dim>(other, segment, track.local[n], foot.gap, u);
 }
 
 namespace {
 
 /// Walks from the last foot. Past an edge: the status says so and the last segment is kept.
 template <int Dim>
-void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, ContactTrack<Dim>& track) {
+void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, ContactTrack<Dim>& track) {
   const auto n = static_cast<std::size_t>(node);
   const Vec<Dim> x = nodes.place(node);
   const bool fresh = track.status[n] == FootStatus::beside;
@@ -257,7 +283,7 @@ void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface
     const int di = walk(foot.local[0], i, other.segments[0]), dj = Dim == 3 ? walk(foot.local[1], j, other.segments[1]) : 0;
     if (di == 0 && dj == 0) {
       if (touches(other, segment, foot.local) && other.there(segment)) {
-        note_foot<Dim>(nodes, node, other, segment, foot, fresh, track);
+        note_foot<Dim>(nodes, node, other, segment, foot, fresh, dt, track);
       } else {
         track.status[n] = FootStatus::beside;
         track.segment[n] = segment;
@@ -274,7 +300,7 @@ void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface
 } // namespace
 
 template <int Dim>
-void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, std::array<int, 2> range,
+void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, std::array<int, 2> range,
                  ContactTrack<Dim>& track) {
   for (int node = range[0]; node < range[1]; ++node) {
     const auto n = static_cast<std::size_t>(node);
@@ -286,7 +312,7 @@ void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, 
     if (!sheet) {
       status = FootStatus::away;
     } else if (status != FootStatus::away && status != FootStatus::lost) {
-      track_node<Dim>(nodes, node, other, normals, track);
+      track_node<Dim>(nodes, node, other, normals, dt, track);
     }
   }
 }
@@ -296,9 +322,9 @@ void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, 
   template Foot<D> find_foot<D>(const ContactSurface<D>&, const NodeNormals<D>&, int, const std::array<double, D>&, const std::array<double, 2>&); \
   template Foot<D> orthogonal_foot<D>(const ContactSurface<D>&, int, const std::array<double, D>&, const Foot<D>&);             \
   template double segment_extent<D>(const ContactSurface<D>&, int);                                                              \
-  template void track_nodes<D>(const ContactSurface<D>&, const NodeNormals<D>&, const ContactSurface<D>&, const NodeNormals<D>&, std::array<int, 2>, ContactTrack<D>&); \
-  template double opening_rate<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const std::array<double, 2>&, const std::array<double, D>&); \
-  template void note_foot<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const Foot<D>&, bool, ContactTrack<D>&);
+  template void track_nodes<D>(const ContactSurface<D>&, const NodeNormals<D>&, const ContactSurface<D>&, const NodeNormals<D>&, double, std::array<int, 2>, ContactTrack<D>&); \
+  template std::array<double, D> relative_velocity<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const std::array<double, 2>&); \
+  template void note_foot<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const Foot<D>&, bool, double, ContactTrack<D>&);
 BALLAST_INSTANTIATE(2)
 BALLAST_INSTANTIATE(3)
 #undef BALLAST_INSTANTIATE

@@ -29,6 +29,7 @@ template <int Dim> struct ContactTrack {
 
   std::vector<double> gap;     ///< m, at the step's start
   std::vector<double> opening; ///< m/s: the rate of the gap over the step
+  std::vector<unsigned char> leaves; ///< where it may touch and its foot leaves the segment in the step: bits low and high of axis 0, then of axis 1
   NodeNormals<Dim> normal;     ///< at the foot
 
   void resize(int nodes);
@@ -66,15 +67,16 @@ template <int Dim> double segment_extent(const ContactSurface<Dim>& s, int segme
 
 /// Follows the feet of nodes [begin, end) of `nodes` on `other`; `own` and `normals` are the normals of both.
 template <int Dim>
-void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, std::array<int, 2> range,
+void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, std::array<int, 2> range,
                  ContactTrack<Dim>& track);
 
-/// Rate of the gap of a node with its foot there, m/s.
+/// Velocity over the step of a node relative to its foot, m/s.
 template <int Dim>
-double opening_rate(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const std::array<double, 2>& local, const std::array<double, Dim>& normal);
+std::array<double, Dim> relative_velocity(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const std::array<double, 2>& local);
 
-/// Notes a foot that find_foot gave: side, gap and rate of the orthogonal one. Came anew (`fresh`): deeper than a tenth of the segment it counts as behind.
+/// Notes a foot that find_foot gave: side, gap and rate of the orthogonal one. Came anew (`fresh`): deeper than a tenth of the
+/// segment it counts as behind, and past an edge it only touches if it is outside.
 template <int Dim>
-void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& foot, bool fresh, ContactTrack<Dim>& track);
+void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& foot, bool fresh, double dt, ContactTrack<Dim>& track);
 
 } // namespace ballast

@@ -156,11 +156,12 @@ template <int Dim> double left_over(int n, int m) {
   for (std::size_t s = 0; s < 2; ++s) {
     const ContactTrack<Dim>& track = t.state.tracks[s];
     for (std::size_t k = 0; k < track.gap.size(); ++k) {
-      std::array<double, Dim> normal;
+      const auto u = relative_velocity<Dim>(s == 0 ? a : b, static_cast<int>(k), s == 0 ? b : a, track.segment[k], track.local[k]);
+      double opening = 0;
       for (std::size_t d = 0; d < Dim; ++d) {
-        normal[d] = track.normal[d][k];
+        opening += u[d] * track.normal[d][k];
       }
-      worst = std::max(worst, -opening_rate<Dim>(s == 0 ? a : b, static_cast<int>(k), s == 0 ? b : a, track.segment[k], track.local[k], normal));
+      worst = std::max(worst, -opening);
     }
   }
   return worst / speed;
@@ -225,7 +226,7 @@ TEST(Contact, PushesPenetrationOutWithoutGain) {
     ContactSurface<2> a = t.low.view(), b = t.high.view();
     const ContactReport report = resolve_contact(a, b, dt, t.settings, t.state);
     EXPECT_GE(report.loss, -1e-18);
-    EXPECT_LE(report.deepest, deepest * (1 + 1e-12));
+    EXPECT_LE(report.deepest, deepest + 1e-3 * dt * 1); // of what a step would come closer: sweeps end at 1e-4
     deepest = report.deepest;
     for (Sheet<2>* s : {&t.low, &t.high}) {
       s->set_velocity({0, s->momentum()[1] / Two<2>::mass_of(*s)});
