@@ -59,6 +59,7 @@ void add_report(ContactReport& to, const ContactReport& part) {
   to.closing = std::max(to.closing, part.closing);
   to.violation = std::max(to.violation, part.violation);
   to.active += part.active;
+  to.behind += part.behind;
   to.sweeps = std::max(to.sweeps, part.sweeps);
   to.impulse += part.impulse;
   for (std::size_t d = 0; d < 3; ++d) {

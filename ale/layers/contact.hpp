@@ -37,6 +37,7 @@ struct ContactReport {
   std::array<double, 3> deepest_at = {0, 0, 0}; ///< m
   double closing = 0;       ///< m: largest approach in the step of a node that would have gone inside
   double violation = 0;     ///< m: what the last sweep still had to correct at most
+  long behind = 0;          ///< nodes inside that came in past an edge or through a hole: no contact, not in `deepest`
   long active = 0;          ///< nodes with an impulse
   int sweeps = 0;
   std::array<double, 3> impulse_sum = {0, 0, 0}; ///< N s: given by what holds nodes along an axis (ContactSurface::held); zero without

@@ -86,6 +86,7 @@ private:
     for (std::size_t s = 0; s < 2; ++s) {
       const ContactTrack<Dim>& t = state_.tracks[s];
       for (std::size_t n = 0; n < t.gap.size(); ++n) {
+        report.behind += t.status[n] == FootStatus::behind ? 1 : 0;
         if (t.status[n] != FootStatus::front) {
           continue;
         }

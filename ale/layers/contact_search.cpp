@@ -150,7 +150,7 @@ void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurfac
   });
   const auto n = static_cast<std::size_t>(node);
   if (segment >= 0) {
-    note_foot<Dim>(nodes, node, other, segment, best, true, dt, track);
+    note_foot<Dim>(nodes, node, other, segment, best, dt, track);
     return;
   }
   const bool was_away = track.status[n] == FootStatus::away;

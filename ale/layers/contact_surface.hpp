@@ -21,6 +21,7 @@ template <int Dim> struct ContactSurface {
   std::array<const double*, Dim> velocity_n{};   ///< m/s, at the step's start, where nodes move by the mean of both; else none
   std::array<const double*, Dim> force{};        ///< N, already in `velocity` as dt force/mass (leapfrog); for the energy account; or none
   double weight = 1, weight_n = 0;               ///< a node moves by dt (weight velocity + weight_n velocity_n): 1/2, 1/2 where the mean moves it
+  double rim = 0.1;                              ///< of a segment: so far past an outer edge its continuation still touches
   int outside = 1;                               ///< 1 or -1
   const char* alive = nullptr;                   ///< by segment, 0: a hole; none: all are there
   const unsigned char* held = nullptr;           ///< by node, bit d: no velocity along axis d; none: all free

@@ -7,7 +7,7 @@ namespace ballast {
 
 namespace {
 
-constexpr double entry_depth = 0.1; ///< of a segment's extent: a node that comes in deeper came in from behind
+constexpr double entry_depth = 0.1; ///< of a segment's extent: a node found deeper was there before
 constexpr int longest_walk = 64;    ///< segments
 
 template <int Dim> using Vec = std::array<double, Dim>;
@@ -240,22 +240,24 @@ unsigned char sides_left(const ContactSurface<Dim>& s, int segment, const std::a
 } // namespace
 
 template <int Dim>
-void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& found, bool fresh, double dt, ContactTrack<Dim>& track) {
+void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& found, double dt, ContactTrack<Dim>& track) {
   const Foot<Dim> foot = orthogonal_foot<Dim>(other, segment, nodes.place(node), found);
   const auto n = static_cast<std::size_t>(node);
   track.segment[n] = segment;
   track.local[n] = foot.local;
   track.gap[n] = foot.gap;
+  Vec<Dim> u = relative_velocity<Dim>(nodes, node, other, segment, track.local[n]);
   FootStatus& status = track.status[n];
   const auto past = [](double a) { return a < 0 || a > 1; };
-  if (fresh && foot.gap < 0 && (past(found.local[0]) || (Dim == 3 && past(found.local[1])))) {
+  const bool tracked = status == FootStatus::front || status == FootStatus::behind, beside = status == FootStatus::beside;
+  if (tracked) {
+    status = foot.gap >= 0 ? FootStatus::front : status;
+  } else if (foot.gap < 0 && (past(found.local[0]) || (Dim == 3 && past(found.local[1])))) {
     status = FootStatus::beside;
-  } else if (fresh) {
-    status = foot.gap < -entry_depth * segment_extent(other, segment) ? FootStatus::behind : FootStatus::front;
-  } else if (status == FootStatus::behind && foot.gap >= 0) {
-    status = FootStatus::front;
+  } else {
+    const double depth = beside ? 2 * dt * std::abs(dot<Dim>(u, foot.normal)) : entry_depth * segment_extent(other, segment);
+    status = foot.gap < -depth ? FootStatus::behind : FootStatus::front;
   }
-  Vec<Dim> u = relative_velocity<Dim>(nodes, node, other, segment, track.local[n]);
   track.opening[n] = dot<Dim>(u, foot.normal);
   for (std::size_t d = 0; d < Dim; ++d) {
     track.normal[d][n] = foot.normal[d];
@@ -271,7 +273,6 @@ template <int Dim>
 void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, ContactTrack<Dim>& track) {
   const auto n = static_cast<std::size_t>(node);
   const Vec<Dim> x = nodes.place(node);
-  const bool fresh = track.status[n] == FootStatus::beside;
   int segment = track.segment[n];
   std::array<double, 2> start = track.local[n];
   for (int step = 0; step < longest_walk; ++step) {
@@ -283,7 +284,7 @@ void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface
     const int di = walk(foot.local[0], i, other.segments[0]), dj = Dim == 3 ? walk(foot.local[1], j, other.segments[1]) : 0;
     if (di == 0 && dj == 0) {
       if (touches(other, segment, foot.local) && other.there(segment)) {
-        note_foot<Dim>(nodes, node, other, segment, foot, fresh, dt, track);
+        note_foot<Dim>(nodes, node, other, segment, foot, dt, track);
       } else {
         track.status[n] = FootStatus::beside;
         track.segment[n] = segment;
@@ -324,7 +325,7 @@ void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, 
   template double segment_extent<D>(const ContactSurface<D>&, int);                                                              \
   template void track_nodes<D>(const ContactSurface<D>&, const NodeNormals<D>&, const ContactSurface<D>&, const NodeNormals<D>&, double, std::array<int, 2>, ContactTrack<D>&); \
   template std::array<double, D> relative_velocity<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const std::array<double, 2>&); \
-  template void note_foot<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const Foot<D>&, bool, double, ContactTrack<D>&);
+  template void note_foot<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const Foot<D>&, double, ContactTrack<D>&);
 BALLAST_INSTANTIATE(2)
 BALLAST_INSTANTIATE(3)
 #undef BALLAST_INSTANTIATE

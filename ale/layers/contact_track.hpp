@@ -56,7 +56,7 @@ template <int Dim> bool touches(const ContactSurface<Dim>& s, int segment, const
   const std::array<int, 2> at = {segment % s.segments[0], segment / s.segments[0]};
   bool in = true;
   for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
-    const double low = at[axis] == 0 ? 0.1 : 1e-9, high = at[axis] == s.segments[axis] - 1 ? 0.1 : 1e-9;
+    const double low = at[axis] == 0 ? s.rim : 1e-9, high = at[axis] == s.segments[axis] - 1 ? s.rim : 1e-9;
     in = in && local[axis] >= -low && local[axis] <= 1 + high;
   }
   return in;
@@ -74,9 +74,10 @@ void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, 
 template <int Dim>
 std::array<double, Dim> relative_velocity(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const std::array<double, 2>& local);
 
-/// Notes a foot that find_foot gave: side, gap and rate of the orthogonal one. Came anew (`fresh`): deeper than a tenth of the
-/// segment it counts as behind, and past an edge it only touches if it is outside.
+/// Notes a foot that find_foot gave: side, gap and rate of the orthogonal one. A node that comes in past an edge or a hole, or
+/// that was looked for, counts as behind if it is deeper than what it can have gone since it was outside: two steps' approach, or a
+/// tenth of the segment; past an edge it only begins to touch outside.
 template <int Dim>
-void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& foot, bool fresh, double dt, ContactTrack<Dim>& track);
+void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& foot, double dt, ContactTrack<Dim>& track);
 
 } // namespace ballast

@@ -6,6 +6,8 @@ namespace ballast {
 
 namespace {
 
+constexpr double layer_rim = 0.5; ///< layers' edges lie over each other: past one, the next still must not dip below it
+
 /// Every node's foot at the node with its own number.
 template <int Dim> void start_track(const ContactSurface<Dim>& s, ContactTrack<Dim>& track) {
   const int n = s.nodes_along(0);
@@ -60,6 +62,7 @@ ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Di
   }
   s.mass = stack.mass.data() + first;
   s.outside = upper ? 1 : -1;
+  s.rim = layer_rim;
   s.alive = stack.alive.data() + stack.element(0, 0, level);
   s.held = held.data();
   return s;

@@ -153,7 +153,6 @@ Impact strike(Bar a, Bar b, Mover mover_a, Mover mover_b) {
 
 constexpr BarMaterial steel{7800, 200e9}, aluminium{2700, 70e9};
 constexpr double speed = 10;
-constexpr bool verbose = true;
 
 constexpr std::array<std::array<Mover, 2>, 3> movers = {{{Mover::leapfrog, Mover::leapfrog}, {Mover::mean, Mover::mean}, {Mover::mean, Mover::leapfrog}}};
 
@@ -170,8 +169,6 @@ TEST(ContactImpact, EqualBarsExchangeVelocities) {
       EXPECT_GE(i.loss, 0);
       EXPECT_LT(i.loss, 0.005 * energy);
       EXPECT_LT(i.unaccounted, 1e-12);
-      if (verbose) printf("%d/%d columns, mean %d %d: va %.5f vb %.5f p %.5f deepest/h %.1e loss %.5f unaccounted %.1e\n", columns_a, columns_b, ma == Mover::mean, mb == Mover::mean, i.speed_a / speed,
-             i.speed_b / speed, i.plateau / pressure, i.deepest * 200 / length, i.loss / energy, i.unaccounted);
     }
   }
 }
@@ -181,7 +178,6 @@ TEST(ContactImpact, PressureIsThatOfImpedances) {
   for (const auto& [ma, mb] : movers) {
     const Impact i = strike(Bar(4, 200, 1, steel, -length, speed), Bar(7, 200, -1, aluminium, 1e-9, 0), ma, mb);
     EXPECT_NEAR(i.plateau, pressure, 0.02 * pressure);
-      if (verbose) printf("p %.5f\n", i.plateau / pressure);
   }
 }
 
