@@ -1,0 +1,409 @@
+// Impulses of a pair of surfaces whose feet are known: the method is ale/layers/contact.hpp's.
+#include "ale/layers/contact_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballast {
+
+namespace {
+
+template <int Dim> using Vec = std::array<double, Dim>;
+template <int Dim> using Surfaces = std::array<ContactSurface<Dim>*, 2>;
+
+/// A node in contact and what it asks for.
+template <int Dim> struct ContactPoint {
+  static constexpr std::size_t corners = 1 << (Dim - 1);
+
+  std::size_t side;
+  int node;
+  std::array<int, corners> corner;
+  std::array<double, corners> share;
+  Vec<Dim> normal;
+  double asked;  ///< opening, m/s
+  double fixed;  ///< its part by velocity_n
+  double per_impulse, per_slip; ///< 1/kg: opening, movement along the surface by impulse
+  double impulse = 0;
+  Vec<Dim> friction{};
+};
+
+/// A foot that may become a contact point.
+template <int Dim> struct Candidate {
+  std::size_t side;
+  int node, segment;
+  std::array<double, 2> local;
+  Vec<Dim> normal;
+  double gap, opening; ///< opening: before contact
+  bool listed;
+};
+
+/// What the opening of a node has to be at least.
+double asked_opening(double gap, double opening, double dt, double push_out) {
+  return gap >= 0 ? -gap / dt : std::min(push_out * -gap / dt, std::max(0.0, -opening));
+}
+
+template <int Dim> class Solver {
+public:
+  Solver(const Surfaces<Dim>& surfaces, double dt, const ContactSettings& settings, ContactState<Dim>& state) : surfaces_(surfaces), dt_(dt), settings_(settings), state_(state) {}
+
+  ContactReport run() {
+    ContactReport report;
+    clear();
+    measure(report);
+    find_candidates();
+    list(false, settings_.push_out);
+    if (points_.empty()) {
+      return report;
+    }
+    keep_velocities();
+    iterate(report, settings_.push_out);
+    account(report);
+    if (pushes_ && state_.taken + report.loss < report.friction_loss) {
+      restore_velocities();
+      clear();
+      list(false, 0);
+      iterate(report, 0);
+      account(report);
+    }
+    state_.taken += report.loss - report.friction_loss;
+    return report;
+  }
+
+private:
+  void clear() {
+    points_.clear();
+    pushes_ = false;
+    for (Candidate<Dim>& c : candidates_) {
+      c.listed = false;
+    }
+    for (std::size_t s = 0; s < 2; ++s) {
+      std::fill(state_.touched[s].begin(), state_.touched[s].end(), char(0));
+      std::fill(state_.listed[s].begin(), state_.listed[s].end(), char(0));
+    }
+  }
+
+  void measure(ContactReport& report) const {
+    for (std::size_t s = 0; s < 2; ++s) {
+      const ContactTrack<Dim>& t = state_.tracks[s];
+      for (std::size_t n = 0; n < t.gap.size(); ++n) {
+        report.behind += t.status[n] == FootStatus::behind ? 1 : 0;
+        if (t.status[n] != FootStatus::front) {
+          continue;
+        }
+        if (-t.gap[n] > report.deepest) {
+          report.deepest = -t.gap[n];
+          const Vec<Dim> x = surfaces_[s]->place(static_cast<int>(n));
+          std::copy(x.begin(), x.end(), report.deepest_at.begin());
+        }
+        if (t.gap[n] + dt_ * t.opening[n] < 0) {
+          report.closing = std::max(report.closing, -dt_ * t.opening[n]);
+        }
+      }
+    }
+  }
+
+  /// Feet that nodes may come to in the step: those tracked, and beyond a side that they leave, where the surface rises there.
+  void find_candidates() {
+    candidates_.clear();
+    for (std::size_t s = 0; s < 2; ++s) {
+      const ContactTrack<Dim>& t = state_.tracks[s];
+      for (int node = 0; node < surfaces_[s]->node_count(); ++node) {
+        const auto n = static_cast<std::size_t>(node);
+        if (t.status[n] == FootStatus::front && t.leaves[n] != 0) {
+          add_neighbours(s, node);
+        }
+      }
+    }
+  }
+
+  void add_neighbours(std::size_t s, int node) {
+    const ContactTrack<Dim>& t = state_.tracks[s];
+    const ContactSurface<Dim>&a = *surfaces_[s], &b = *surfaces_[1 - s];
+    const auto n = static_cast<std::size_t>(node);
+    const std::array<int, 2> at = {t.segment[n] % b.segments[0], t.segment[n] / b.segments[0]}, stride = {1, b.segments[0]};
+    for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
+      for (int side = 0; side < 2; ++side) {
+        const int step = side == 0 ? -1 : 1, to = at[axis] + step, segment = t.segment[n] + step * stride[axis];
+        if ((t.leaves[n] >> (2 * axis + static_cast<std::size_t>(side)) & 1) == 0 || to < 0 || to >= b.segments[axis] || !b.there(segment)) {
+          continue;
+        }
+        Foot<Dim> foot;
+        foot.local = t.local[n];
+        foot.local[axis] = side == 0 ? 1 : 0;
+        foot = orthogonal_foot<Dim>(b, segment, a.place(node), foot);
+        if (foot.found && rises(b, segment, axis, step, foot, normal_at(t, n))) {
+          const Vec<Dim> u = relative_velocity<Dim>(a, node, b, segment, foot.local);
+          candidates_.push_back({s, node, segment, foot.local, foot.normal, foot.gap, dot(u, foot.normal), false});
+        }
+      }
+    }
+  }
+
+  /// The next segment along an axis turns towards the side that touches: a valley between them.
+  static bool rises(const ContactSurface<Dim>& b, int segment, std::size_t axis, int step, const Foot<Dim>& foot, const Vec<Dim>& normal) {
+    const auto corner = b.corners_of(segment);
+    const int from = corner[0], to = corner[axis == 0 ? 1 : 2];
+    double up = 0, turn = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double along = step * (b.position[d][to] - b.position[d][from]);
+      up += along * normal[d];
+      turn += foot.normal[d] * normal[d];
+    }
+    return up > 0 && turn > -0.9;
+  }
+
+  /// Lists the nodes that ask for more than they have; `driven`: among those near an impulse that are not listed yet.
+  void list(bool driven, double push_out) {
+    for (std::size_t s = 0; s < 2; ++s) {
+      const ContactTrack<Dim>& t = state_.tracks[s];
+      for (int node = 0; node < surfaces_[s]->node_count(); ++node) {
+        const auto n = static_cast<std::size_t>(node);
+        if (t.status[n] != FootStatus::front || state_.listed[s][n] != 0 || (driven && !near_impulse(s, node, t.segment[n]))) {
+          continue;
+        }
+        if (driven || t.opening[n] < asked_opening(t.gap[n], t.opening[n], dt_, push_out)) {
+          state_.listed[s][n] = list_foot({s, node, t.segment[n], t.local[n], normal_at(t, n), t.gap[n], t.opening[n], false}, driven, push_out) ? 1 : 0;
+        }
+      }
+    }
+    for (Candidate<Dim>& c : candidates_) {
+      if (!c.listed && (!driven || near_impulse(c.side, c.node, c.segment))) {
+        c.listed = list_foot(c, driven, push_out);
+      }
+    }
+  }
+
+  bool list_foot(const Candidate<Dim>& c, bool driven, double push_out) {
+    const double asked = asked_opening(c.gap, c.opening, dt_, push_out);
+    const double opening = driven ? dot(relative_velocity<Dim>(*surfaces_[c.side], c.node, *surfaces_[1 - c.side], c.segment, c.local), c.normal) : c.opening;
+    if (!(opening < asked)) {
+      return false;
+    }
+    pushes_ = pushes_ || asked > 0;
+    points_.push_back(make_point(c, asked));
+    return true;
+  }
+
+  bool near_impulse(std::size_t s, int node, int segment) const {
+    bool near = state_.touched[s][static_cast<std::size_t>(node)] != 0;
+    for (const int c : surfaces_[1 - s]->corners_of(segment)) {
+      near = near || state_.touched[1 - s][static_cast<std::size_t>(c)] != 0;
+    }
+    return near;
+  }
+
+  static double dot(const Vec<Dim>& a, const Vec<Dim>& b) {
+    double sum = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      sum += a[d] * b[d];
+    }
+    return sum;
+  }
+  static Vec<Dim> normal_at(const ContactTrack<Dim>& t, std::size_t n) {
+    Vec<Dim> v;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      v[d] = t.normal[d][n];
+    }
+    return v;
+  }
+
+  ContactPoint<Dim> make_point(const Candidate<Dim>& from, double asked) {
+    const ContactSurface<Dim>&a = *surfaces_[from.side], &b = *surfaces_[1 - from.side];
+    ContactPoint<Dim> p{from.side, from.node, b.corners_of(from.segment), corner_shares<Dim>(from.local), from.normal, asked, 0, 0, 0, 0, {}};
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const int axis = static_cast<int>(d);
+      double w = a.weight * a.inverse_mass(p.node, axis), u = a.weight_n != 0 ? a.weight_n * a.velocity_n[d][p.node] : 0.0;
+      for (std::size_t c = 0; c < p.corners; ++c) {
+        w += p.share[c] * p.share[c] * b.weight * b.inverse_mass(p.corner[c], axis);
+        u -= b.weight_n != 0 ? p.share[c] * b.weight_n * b.velocity_n[d][p.corner[c]] : 0.0;
+      }
+      p.per_impulse += p.normal[d] * p.normal[d] * w;
+      p.per_slip = std::max(p.per_slip, w);
+      p.fixed += p.normal[d] * u;
+    }
+    return p;
+  }
+
+  void keep_velocities() {
+    for (std::size_t s = 0; s < 2; ++s) {
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const double* v = surfaces_[s]->velocity[d];
+        state_.before[s][d].assign(v, v + surfaces_[s]->node_count());
+      }
+    }
+  }
+  void restore_velocities() {
+    for (std::size_t s = 0; s < 2; ++s) {
+      for (std::size_t d = 0; d < Dim; ++d) {
+        std::copy(state_.before[s][d].begin(), state_.before[s][d].end(), surfaces_[s]->velocity[d]);
+      }
+    }
+  }
+
+  void iterate(ContactReport& report, double push_out) {
+    report.sweeps = 0;
+    double first = 0;
+    for (int round = 0; round < settings_.rounds; ++round) {
+      double worst = 0;
+      for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
+        worst = 0;
+        for (ContactPoint<Dim>& p : points_) {
+          worst = std::max(worst, relax(p));
+        }
+        ++report.sweeps;
+        first = std::max(first, worst);
+        if (worst <= settings_.tolerance * first) {
+          break;
+        }
+      }
+      report.violation = dt_ * worst;
+      const std::size_t known = points_.size();
+      if (round + 1 < settings_.rounds) {
+        list(true, push_out);
+      }
+      if (points_.size() == known) {
+        break;
+      }
+    }
+  }
+
+  /// Velocity of the node relative to its foot.
+  Vec<Dim> slip(const ContactPoint<Dim>& p, double weight_a, double weight_b) const {
+    const ContactSurface<Dim>&a = *surfaces_[p.side], &b = *surfaces_[1 - p.side];
+    Vec<Dim> u;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double foot = 0;
+      for (std::size_t c = 0; c < p.corners; ++c) {
+        foot += p.share[c] * b.velocity[d][p.corner[c]];
+      }
+      u[d] = weight_a * a.velocity[d][p.node] - weight_b * foot;
+    }
+    return u;
+  }
+
+  void push(const ContactPoint<Dim>& p, const Vec<Dim>& impulse) {
+    ContactSurface<Dim>&a = *surfaces_[p.side], &b = *surfaces_[1 - p.side];
+    state_.touched[p.side][static_cast<std::size_t>(p.node)] = 1;
+    for (std::size_t c = 0; c < p.corners; ++c) {
+      state_.touched[1 - p.side][static_cast<std::size_t>(p.corner[c])] = 1;
+    }
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const int axis = static_cast<int>(d);
+      a.velocity[d][p.node] += impulse[d] * a.inverse_mass(p.node, axis);
+      for (std::size_t c = 0; c < p.corners; ++c) {
+        b.velocity[d][p.corner[c]] -= impulse[d] * p.share[c] * b.inverse_mass(p.corner[c], axis);
+      }
+    }
+  }
+
+  /// One point's turn; the change of its velocities that it needed, m/s.
+  double relax(ContactPoint<Dim>& p) {
+    const Vec<Dim> u = slip(p, surfaces_[p.side]->weight, surfaces_[1 - p.side]->weight);
+    double opening = p.fixed;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      opening += p.normal[d] * u[d];
+    }
+    const double total = std::max(0.0, p.impulse + (p.asked - opening) / p.per_impulse), change = total - p.impulse;
+    double needed = std::abs(change) * p.per_impulse;
+    if (change != 0) {
+      Vec<Dim> impulse;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        impulse[d] = change * p.normal[d];
+      }
+      push(p, impulse);
+      p.impulse = total;
+    }
+    if (settings_.friction > 0) {
+      needed = std::max(needed, rub(p));
+    }
+    return needed;
+  }
+
+  /// Friction of one point: towards no slip, total at most mu times the pressing one.
+  double rub(ContactPoint<Dim>& p) {
+    const Vec<Dim> u = slip(p, 1, 1);
+    double along = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      along += u[d] * p.normal[d];
+    }
+    Vec<Dim> total, change;
+    double square = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      total[d] = p.friction[d] - (u[d] - along * p.normal[d]) / p.per_slip;
+      square += total[d] * total[d];
+    }
+    const double most = settings_.friction * p.impulse, scale = square > most * most ? most / std::sqrt(square) : 1.0;
+    double size = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      change[d] = scale * total[d] - p.friction[d];
+      p.friction[d] = scale * total[d];
+      size += change[d] * change[d];
+    }
+    if (size > 0) {
+      push(p, change);
+    }
+    return std::sqrt(size) * p.per_slip;
+  }
+
+  double mean_velocity(std::size_t s, std::size_t d, int node) const {
+    const ContactSurface<Dim>& a = *surfaces_[s];
+    return 0.5 * (a.old_velocity(d, node, dt_, state_.before[s][d][static_cast<std::size_t>(node)]) + a.velocity[d][node]);
+  }
+
+  double friction_work(const ContactPoint<Dim>& p) const {
+    double work = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double u = mean_velocity(p.side, d, p.node);
+      for (std::size_t c = 0; c < p.corners; ++c) {
+        u -= p.share[c] * mean_velocity(1 - p.side, d, p.corner[c]);
+      }
+      work += p.friction[d] * u;
+    }
+    return work;
+  }
+
+  void account(ContactReport& report) const {
+    report.loss = report.friction_loss = report.impulse = 0;
+    report.active = 0;
+    report.impulse_sum = {0, 0, 0};
+    for (const ContactPoint<Dim>& p : points_) {
+      report.active += p.impulse > 0 ? 1 : 0;
+      report.impulse += p.impulse;
+      report.friction_loss -= settings_.friction > 0 ? friction_work(p) : 0.0;
+    }
+    const bool held = surfaces_[0]->held != nullptr || surfaces_[1]->held != nullptr;
+    for (std::size_t s = 0; s < 2; ++s) {
+      const ContactSurface<Dim>& a = *surfaces_[s];
+      for (int node = 0; node < a.node_count(); ++node) {
+        const auto n = static_cast<std::size_t>(node);
+        if (state_.touched[s][n] == 0) {
+          continue;
+        }
+        for (std::size_t d = 0; d < Dim; ++d) {
+          const double change = a.mass[node] * (a.velocity[d][node] - state_.before[s][d][n]);
+          report.loss -= change * mean_velocity(s, d, node);
+          report.impulse_sum[d] += held ? change : 0;
+        }
+      }
+    }
+  }
+
+  Surfaces<Dim> surfaces_;
+  double dt_;
+  const ContactSettings& settings_;
+  ContactState<Dim>& state_;
+  std::vector<ContactPoint<Dim>> points_;
+  std::vector<Candidate<Dim>> candidates_;
+  bool pushes_ = false;
+};
+
+} // namespace
+
+template <int Dim> ContactReport apply_impulses(const std::array<ContactSurface<Dim>*, 2>& surfaces, double dt, const ContactSettings& settings, ContactState<Dim>& state) {
+  return Solver<Dim>(surfaces, dt, settings, state).run();
+}
+
+template ContactReport apply_impulses<2>(const std::array<ContactSurface<2>*, 2>&, double, const ContactSettings&, ContactState<2>&);
+template ContactReport apply_impulses<3>(const std::array<ContactSurface<3>*, 2>&, double, const ContactSettings&, ContactState<3>&);
+
+} // namespace ballast

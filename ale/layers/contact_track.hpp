@@ -1,0 +1,83 @@
+// Tracks on which segment of a surface a node has its foot, from step to step.
+//
+// Which segment: x = X(a, b) + g N(a, b), with N the interpolated normals of nodes, has one solution near the surface that is
+// continuous from segment to segment, over ridges and valleys. The foot itself is then the orthogonal one on that segment's
+// patch or its continuation: the gap changes at the rate n.(u_s - sum phi_k u_k) and the force along n turns nothing.
+// g < 0: the node is inside, however deep. Newton's method from the last foot, then a walk from segment to segment; a node
+// that has lost its foot is looked for among all segments (ale/layers/contact_search).
+#pragma once
+
+#include "ale/layers/contact_surface.hpp"
+
+#include <vector>
+
+namespace ballast {
+
+enum class FootStatus : char {
+  away,   ///< none near; looked for when the surfaces have moved far enough
+  lost,   ///< lost in this step: to be looked for now
+  beside, ///< past an edge, or over a hole
+  behind, ///< came in past an edge or through a hole: no contact until it is outside again
+  front   ///< has its foot on the surface and its side is known
+};
+
+/// Where the nodes of one surface have their feet on another. The first three carry over from step to step, and into a checkpoint.
+template <int Dim> struct ContactTrack {
+  std::vector<FootStatus> status;
+  std::vector<int> segment;
+  std::vector<std::array<double, 2>> local;
+
+  std::vector<double> gap;     ///< m, at the step's start
+  std::vector<double> opening; ///< m/s: the rate of the gap over the step
+  std::vector<unsigned char> leaves; ///< where it may touch and its foot leaves the segment in the step: bits low and high of axis 0, then of axis 1
+  NodeNormals<Dim> normal;     ///< at the foot
+
+  void resize(int nodes);
+};
+
+/// A foot: shares of the corners follow from `local`.
+template <int Dim> struct Foot {
+  std::array<double, 2> local = {0.5, 0.5};
+  double gap = 0;
+  std::array<double, Dim> normal{};
+  bool found = false; ///< on the bilinear patch or its continuation
+};
+
+/// Foot along the interpolated normals, starting from `start`.
+template <int Dim>
+Foot<Dim> find_foot(const ContactSurface<Dim>& s, const NodeNormals<Dim>& normals, int segment, const std::array<double, Dim>& point, const std::array<double, 2>& start);
+
+/// Orthogonal foot near `foot`; `foot` itself where it is too far from the patch for that to matter.
+template <int Dim> Foot<Dim> orthogonal_foot(const ContactSurface<Dim>& s, int segment, const std::array<double, Dim>& point, const Foot<Dim>& foot);
+
+/// The foot lies on its segment, or so little past an outer edge that the segment's continuation serves: sheets whose edges
+/// meet keep touching there while they bend.
+template <int Dim> bool touches(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local) {
+  const std::array<int, 2> at = {segment % s.segments[0], segment / s.segments[0]};
+  bool in = true;
+  for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
+    const double low = at[axis] == 0 ? s.rim : 1e-9, high = at[axis] == s.segments[axis] - 1 ? s.rim : 1e-9;
+    in = in && local[axis] >= -low && local[axis] <= 1 + high;
+  }
+  return in;
+}
+
+/// Half the longest diagonal of a segment, m.
+template <int Dim> double segment_extent(const ContactSurface<Dim>& s, int segment);
+
+/// Follows the feet of nodes [begin, end) of `nodes` on `other`; `own` and `normals` are the normals of both.
+template <int Dim>
+void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, std::array<int, 2> range,
+                 ContactTrack<Dim>& track);
+
+/// Velocity over the step of a node relative to its foot, m/s.
+template <int Dim>
+std::array<double, Dim> relative_velocity(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const std::array<double, 2>& local);
+
+/// Notes a foot that find_foot gave: side, gap and rate of the orthogonal one. A node that comes in past an edge or a hole, or
+/// that was looked for, counts as behind if it is deeper than what it can have gone since it was outside: two steps' approach, or a
+/// tenth of the segment; past an edge it only begins to touch outside.
+template <int Dim>
+void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& foot, double dt, ContactTrack<Dim>& track);
+
+} // namespace ballast

@@ -1,0 +1,129 @@
+#include "ale/layers/slideline.hpp"
+
+#include <algorithm>
+
+namespace ballast {
+
+namespace {
+
+constexpr double layer_rim = 0.5; ///< layers' edges lie over each other: past one, the next still must not dip below it
+
+/// Every node's foot at the node with its own number.
+template <int Dim> void start_track(const ContactSurface<Dim>& s, ContactTrack<Dim>& track) {
+  const int n = s.nodes_along(0);
+  for (int node = 0; node < s.node_count(); ++node) {
+    const int i = node % n, j = node / n;
+    const int si = std::min(i, s.segments[0] - 1), sj = Dim == 3 ? std::min(j, s.segments[1] - 1) : 0;
+    const auto at = static_cast<std::size_t>(node);
+    track.status[at] = FootStatus::front;
+    track.segment[at] = sj * s.segments[0] + si;
+    track.local[at] = {static_cast<double>(i - si), static_cast<double>(j - sj)};
+  }
+}
+
+template <int Dim> double layer_thickness(const LayerStack<Dim>& stack, int layer) {
+  const auto first = static_cast<std::size_t>(layer * stack.grid.through);
+  return stack.levels[first + static_cast<std::size_t>(stack.grid.through)] - stack.levels[first];
+}
+
+} // namespace
+
+template <int Dim> std::vector<unsigned char> held_nodes(const LayerStack<Dim>& stack) {
+  constexpr unsigned all = (1U << Dim) - 1;
+  const int n = stack.grid.nodes_along(0), rows = Dim == 3 ? stack.grid.nodes_along(1) : 1;
+  std::vector<unsigned char> held(static_cast<std::size_t>(n * rows), 0);
+  for (int axis = 0; axis < Dim - 1; ++axis) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const LayerEdge edge = stack.edge[static_cast<std::size_t>(axis)][side];
+      const unsigned bits = edge == LayerEdge::symmetry ? 1U << axis : edge == LayerEdge::fixed ? all : 0U;
+      const int at = side == 0 ? 0 : stack.grid.elements[static_cast<std::size_t>(axis)];
+      for (int j = 0; j < rows; ++j) {
+        for (int i = 0; i < n; ++i) {
+          unsigned char& node = held[static_cast<std::size_t>(j * n + i)];
+          node = static_cast<unsigned char>(node | ((axis == 0 ? i : j) == at ? bits : 0U));
+        }
+      }
+    }
+  }
+  return held;
+}
+
+template <int Dim>
+ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held) {
+  const LayerGrid& g = stack.grid;
+  const int plane = layer * (g.through + 1) + (upper ? g.through : 0), level = layer * g.through + (upper ? g.through - 1 : 0);
+  const std::size_t first = stack.node(0, 0, plane);
+  ContactSurface<Dim> s;
+  s.segments = {g.elements[0], Dim == 3 ? g.elements[1] : 1};
+  for (std::size_t d = 0; d < Dim; ++d) {
+    s.position[d] = stack.position[d].data() + first;
+    s.velocity[d] = velocity[d].data() + first;
+    s.force[d] = stack.force[d].data() + first;
+  }
+  s.mass = stack.mass.data() + first;
+  s.outside = upper ? 1 : -1;
+  s.rim = layer_rim;
+  s.alive = stack.alive.data() + stack.element(0, 0, level);
+  s.held = held.data();
+  return s;
+}
+
+template <int Dim>
+SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, LayerVelocity<Dim>& velocity, ThreadPool& pool, const ContactSettings& settings,
+                                   SlidelineState<Dim>& state) {
+  const auto count = static_cast<std::size_t>(stack.grid.layers - 1);
+  const bool fresh = state.pairs.size() != count;
+  if (fresh) {
+    state.pairs.assign(count, {});
+    state.held = held_nodes(stack);
+  }
+  std::vector<std::array<ContactSurface<Dim>, 2>> surfaces(count);
+  for (std::size_t p = 0; p < count; ++p) {
+    const int layer = static_cast<int>(p);
+    surfaces[p] = {layer_surface(stack, velocity, layer, true, state.held), layer_surface(stack, velocity, layer + 1, false, state.held)};
+    state.pairs[p].resize({&surfaces[p][0], &surfaces[p][1]});
+    for (std::size_t s = 0; s < 2 && fresh; ++s) {
+      start_track(surfaces[p][1 - s], state.pairs[p].tracks[s]);
+    }
+  }
+  // Rows of nodes of all pairs' two surfaces, in one run.
+  const int rows = Dim == 3 ? stack.grid.nodes_along(1) : 1, row_nodes = stack.grid.nodes_along(0);
+  const auto over_rows = [&](auto&& body) {
+    parallel_ranges(pool, static_cast<int>(count) * 2 * rows, [&](int begin, int end, int) {
+      for (int r = begin; r < end; ++r) {
+        body(static_cast<std::size_t>(r / (2 * rows)), static_cast<std::size_t>(r / rows % 2), r % rows);
+      }
+    });
+  };
+  over_rows([&](std::size_t p, std::size_t s, int j) { find_normals<Dim>(surfaces[p][s], j, j + 1, state.pairs[p].normals[s]); });
+  over_rows([&](std::size_t p, std::size_t s, int j) {
+    ContactState<Dim>& c = state.pairs[p];
+    track_nodes<Dim>(surfaces[p][s], c.normals[s], surfaces[p][1 - s], c.normals[1 - s], dt, {j * row_nodes, (j + 1) * row_nodes}, c.tracks[s]);
+  });
+  std::vector<ContactReport> reports(count);
+  parallel_ranges(pool, static_cast<int>(count), [&](int begin, int end, int) {
+    for (int p = begin; p < end; ++p) {
+      const auto at = static_cast<std::size_t>(p);
+      reports[at] = solve_contact<Dim>({&surfaces[at][0], &surfaces[at][1]}, dt, settings, state.pairs[at]);
+    }
+  });
+
+  SlidelineReport report;
+  for (std::size_t p = 0; p < count; ++p) {
+    const int layer = static_cast<int>(p);
+    report.deepest_pair = reports[p].deepest > report.contact.deepest ? layer : report.deepest_pair;
+    report.closing_share = std::max(report.closing_share, reports[p].closing / std::min(layer_thickness(stack, layer), layer_thickness(stack, layer + 1)));
+    add_report(report.contact, reports[p]);
+  }
+  return report;
+}
+
+#define BALLAST_INSTANTIATE(D)                                                                                                   \
+  template std::vector<unsigned char> held_nodes<D>(const LayerStack<D>&);                                                       \
+  template ContactSurface<D> layer_surface<D>(const LayerStack<D>&, LayerVelocity<D>&, int, bool, const std::vector<unsigned char>&); \
+  template SlidelineReport resolve_slidelines<D>(const LayerStack<D>&, double, LayerVelocity<D>&, ThreadPool&, const ContactSettings&, SlidelineState<D>&);
+BALLAST_INSTANTIATE(2)
+BALLAST_INSTANTIATE(3)
+#undef BALLAST_INSTANTIATE
+
+} // namespace ballast

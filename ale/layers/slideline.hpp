@@ -1,0 +1,43 @@
+// Slidelines of a stack: each layer's upper plane of nodes against the next layer's lower one (ale/layers/contact).
+//
+// A layer has nodes of its own on both faces, so pairs share none: they are solved side by side, each in its own fixed order,
+// and the sum is taken in the order of the pairs. Which side a layer lies on is known from the start: no layer passes another
+// however fast, except through holes (eroded elements). Layers that meet through a hole of the one between them do not touch.
+#pragma once
+
+#include "ale/layers/contact.hpp"
+#include "ale/layers/layer_stack.hpp"
+
+#include <type_traits>
+
+namespace ballast {
+
+/// By axis, of all nodes of the stack; Dim follows from the stack.
+template <int Dim> using LayerVelocity = std::type_identity_t<std::array<std::vector<double>, Dim>>;
+
+template <int Dim> struct SlidelineState {
+  std::vector<ContactState<Dim>> pairs; ///< from the lowest
+  std::vector<unsigned char> held;      ///< by node of a plane
+};
+
+struct SlidelineReport {
+  ContactReport contact;
+  int deepest_pair = -1;      ///< lower layer of the pair with the deepest penetration
+  double closing_share = 0;   ///< largest approach in the step by the thinner layer's thickness at rest: much below 1 in a sound step
+};
+
+/// The surface of a layer that faces up or down; `velocity`: the one that moves nodes in the step.
+template <int Dim>
+ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held);
+
+/// By node of a plane: axes along which the stack's edges let it have no velocity.
+template <int Dim> std::vector<unsigned char> held_nodes(const LayerStack<Dim>& stack);
+
+/// Changes `velocity` (v + dt/2 a with a = force/mass, of all nodes) so that x + dt velocity has no layer inside its neighbour. A new `state`
+/// takes every node to stand over the same node of its neighbour. Losses are those of a ledger whose stresses work -dt velocity.(force + next force)/2.
+/// Same bits for any number of threads.
+template <int Dim>
+SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, LayerVelocity<Dim>& velocity, ThreadPool& pool, const ContactSettings& settings,
+                                   SlidelineState<Dim>& state);
+
+} // namespace ballast
