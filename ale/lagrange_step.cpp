@@ -1,4 +1,5 @@
 // The Lagrangian step: predict, corner forces, accelerate, move, then work, closure, strength, state.
+#include "ale/layer_coupling.hpp"
 #include "ale/absorbing.hpp"
 #include "ale/lagrange_parts.hpp"
 #include "ale/outflow.hpp"
@@ -286,6 +287,21 @@ template <int Dim> WorstCell move_cells(Scene<Dim>& scene, Block<Dim>& b) {
   return least;
 }
 
+/// Layers move and touch the blocks, whose cells then move anew.
+template <int Dim> void move_layers(Scene<Dim>& scene, const Clock& clock) {
+  if (scene.layers.empty()) {
+    return;
+  }
+  step_layers(scene, clock.dt);
+  for (Block<Dim>& b : scene.blocks) {
+    const WorstCell w = move_cells(scene, b);
+    if (!(w.ratio > 0)) {
+      throw NumericalFailure(fmt::format("block {}, cell ({}, {}, {}), material {}: contact with the layers would turn it inside out at time {:g} s, dt {:g} s",
+                                         b.name, w.cell[0], w.cell[1], w.cell[2], contents(b, w.cell), clock.time, clock.dt));
+    }
+  }
+}
+
 constexpr double smallest_volume_ratio = 0.2; // of one step; below it the step is retried smaller
 constexpr int most_retries = 30;
 
@@ -317,6 +333,7 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
     clock.limit = {clock.dt, static_cast<int>(where), worst.cell, -1, DtCause::retry};
     ++scene.ledger.retries;
   }
+  move_layers(scene, clock);
   for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
     Block<Dim>& b = scene.blocks[ib];
     const StepSums<Dim> sums = work_pass(scene, b, clock.dt);

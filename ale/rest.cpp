@@ -290,7 +290,7 @@ template <int Dim> void hold_still(Block<Dim>& b, ThreadPool& pool, Ledger& ledg
 
 template <int Dim> void follow_rest(Scene<Dim>& scene, Block<Dim>& b, bool remapped) {
   b.awake_steps += b.awake.share();
-  if (scene.numerics.sleeping && may_sleep(b)) {
+  if (scene.numerics.sleeping && scene.layers.empty() && may_sleep(b)) {
     find_awake(scene, b, remapped);
   }
   if (scene.pool->size() > 1 && b.materials.size() > 1) {

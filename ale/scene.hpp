@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ale/block.hpp"
+#include "ale/layers/layers.hpp"
 #include "core/threads.hpp"
 #include "remap/normal.hpp"
 
@@ -78,6 +79,7 @@ struct Ledger {
 template <int Dim> struct Scene {
   std::string title;
   std::vector<Block<Dim>> blocks;
+  std::vector<Layers<Dim>> layers; ///< stacks of fabric
   Numerics numerics;
   Ledger ledger;
   std::unique_ptr<ThreadPool> pool = std::make_unique<ThreadPool>(1);

@@ -1,5 +1,6 @@
 #include "ale/simulation.hpp"
 
+#include "ale/layer_coupling.hpp"
 #include "ale/rest.hpp"
 #include "ale/strength_update.hpp"
 #include "ale/traction.hpp"
@@ -109,6 +110,7 @@ template <int Dim> void prepare(Scene<Dim>& scene) {
     update_state(b, *scene.pool);
     update_traction(b, *scene.pool);
   }
+  prepare_layers(scene);
 }
 
 template void advance<2>(Scene<2>&, Clock&);

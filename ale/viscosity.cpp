@@ -9,6 +9,7 @@
 // axis and leaves smooth (linear) compression alone.
 // dt = cfl L / sqrt(c^2 + (2 Q)^2) with Q = q / (rho |du|): at most 1.15 of the explicit limit of a damped
 // oscillator, L / (Q + sqrt(Q^2 + c^2)), for a CFL number of one.
+#include "ale/layer_coupling.hpp"
 #include "ale/corner_force.hpp"
 #include "ale/phases.hpp"
 #include "core/hex_geometry.hpp"
@@ -257,7 +258,7 @@ template <int Dim> void limit_row(Block<Dim>& b, const Numerics& n, int j, int k
 } // namespace
 
 template <int Dim> DtLimit stable_dt(Scene<Dim>& scene) {
-  DtLimit best;
+  DtLimit best = scene.blocks.empty() ? stable_dt_of_layers(scene) : DtLimit{};
   const Numerics& n = scene.numerics;
   for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
     Block<Dim>& b = scene.blocks[ib];

@@ -1,0 +1,25 @@
+// Layers: a stack of fabric layers in a scene, with its contacts and its account.
+#pragma once
+
+#include "ale/layers/layer_step.hpp"
+#include "ale/layers/slideline.hpp"
+
+#include <vector>
+
+namespace ballast {
+
+template <int Dim> struct Layers {
+  LayerStack<Dim> stack;
+  LayerLedger ledger;
+  ContactSettings contact; ///< between layers and with blocks
+  double cfl = 0.7;        ///< of the wave step of its elements (stable_step)
+  int substeps = 1;        ///< in a step of the scene, at least; as many as stability takes
+
+  SlidelineState<Dim> slidelines;
+  std::vector<char> above; ///< by block: does the stack lie above it, along the last axis, at the start?
+  std::vector<ContactState<Dim>> with_blocks; ///< by block, side and layer, as ale/layer_coupling counts them
+  double closing = 0;   ///< largest approach in a substep by a layer's thickness
+  long steps = 0;       ///< substeps so far
+};
+
+} // namespace ballast
