@@ -248,7 +248,7 @@ template <int Dim> void find_steps(const ElementRow<Dim>& row) {
   for (int i = 0; i < sizes.count; ++i) {
     const Gradients a = sizes.gradients(i, Dim == 3);
     const double squares = std::max(w0[0][i], w1[0][i]) * a.a1 * a.a1 + std::max(w0[1][i], w1[1][i]) * a.a2 * a.a2 + std::max(w0[2][i], w1[2][i]) * a.a3 * a.a3;
-    const double step = 1 / std::sqrt(quarter * lightest[i] * squares);
+    const double step = 1 / std::sqrt(quarter * lightest[i] * std::max(squares, 1e-200)); // slack without shear: no limit
     out[i] = alive[i] != 0 ? step : std::numeric_limits<double>::infinity();
   }
 }

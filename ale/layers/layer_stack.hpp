@@ -77,7 +77,8 @@ template <int Dim> struct LayerStack {
   std::vector<double> wave_step;        ///< s: largest stable step of the element, at `force`'s strains
   std::vector<char> alive;              ///< 0: eroded, its mass stays at its nodes
 
-  // What the step keeps from one phase to the next.
+  // What the step keeps from one phase to the next. To go on bit for bit from a file, keep force, wave_step and these too: the
+  // forces hold a viscous part at the velocity of the half step, which update_forces would not find again.
   LayerRest at_rest;
   // Rows of elements one after the other, in each all strains, i fastest: apart, as many streams would meet in one cache set.
   std::vector<double> stress_volume;    ///< J: stress of each strain times the volume at rest

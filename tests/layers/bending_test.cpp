@@ -58,7 +58,6 @@ TEST(LayerBending, OneElementThroughIsABeam) {
     for (const double thickness : {1e-3, 0.25e-3}) {
       const double load = 0.005 * length / beam(thickness, 1, solid);
       const double ratio = tip_deflection(thickness, 1, 1, load, 20, solid) / beam(thickness, load, solid);
-      std::printf("nu %.1f t %.2f mm: %.4f of beam theory\n", nu, 1e3 * thickness, ratio);
       EXPECT_NEAR(ratio, 1, 0.02) << nu << ' ' << thickness; // (h/L)^2 of one element's straight chord, and shear (t/L)^2
     }
   }
@@ -71,7 +70,6 @@ TEST(LayerBending, LayersAddAndThicknessCubes) {
   const double loose = tip_deflection(thin, layers, 1, load, 20, solid) / beam(thin, load, solid);
   const double solid_load = 0.005 * length / beam(layers * thin, 1, solid);
   const double thick = tip_deflection(layers * thin, 1, layers, solid_load, 20, solid) / beam(layers * thin, solid_load, solid);
-  std::printf("N h^3: %.4f, (N h)^3: %.4f\n", loose, thick);
   EXPECT_NEAR(loose, 1, 0.02);
   EXPECT_NEAR(thick, 1, 0.02);
 }

@@ -187,17 +187,28 @@ TEST(LayerEdges, FixedNodesStay) {
   }
 }
 
-TEST(LayerStep, FailureNamesLayerAndElement) {
-  LayerStack<3> s = make_stack<3>(brick(hooke(), {4, 3, 3}, {1e-3, 1e-3, 0.5e-3}, 3));
-  s.position[0][s.node(4, 0, 5)] = std::numeric_limits<double>::quiet_NaN();
+void expect_failure(LayerStack<3>& s, const std::string& part) {
   ThreadPool pool(1);
   LayerLedger ledger;
   try {
     update_forces(s, 0.0, ledger, pool);
-    FAIL() << "not found";
+    ADD_FAILURE() << "not found: " << part;
   } catch (const NumericalFailure& e) {
-    EXPECT_NE(std::string(e.what()).find("layer 2, element (3, 0) of level 2"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
   }
+}
+
+TEST(LayerStep, FailureNamesLayerAndElement) {
+  LayerStack<3> s = make_stack<3>(brick(hooke(), {4, 3, 3}, {1e-3, 1e-3, 0.5e-3}, 3));
+  s.position[0][s.node(4, 0, 5)] = std::numeric_limits<double>::quiet_NaN();
+  expect_failure(s, "brick: layer 2, element (3, 0) of level 2");
+  LayerStack<3> flat = make_stack<3>(brick(fabric_laws::paper(), {1, 1, 2}, {1e-3, 1e-3, 0.5e-3}, 3, 2));
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 2; ++i) { // E33 = -1/2
+      flat.position[2][flat.node(i, j, 4)] = flat.position[2][flat.node(i, j, 3)];
+    }
+  }
+  expect_failure(flat, "brick: layer 1, element (0, 0) of level 2");
 }
 
 TEST(LayerStack, RefusesNonsense) {

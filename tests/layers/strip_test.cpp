@@ -80,7 +80,6 @@ TEST(LayerStrip, HitAcrossFollowsSmith) {
     }
     const Hit hit = hit_strip(table.number(row, "E"), table.number(row, "rho"), speed, 20e-6);
     const double strain = hit.strain / table.number(row, "eps"), wave = hit.wave / table.number(row, "Uprime_lagrangian");
-    std::printf("%.0f m/s: strain %.4f, wave %.4f of Smith's; hourglass %.5f of internal energy\n", speed, strain, wave, hit.hourglass_share);
     EXPECT_NEAR(strain, 1, 0.02) << speed;
     EXPECT_NEAR(wave, 1, 0.02) << speed;
     EXPECT_LT(hit.hourglass_share, 0.05) << speed;

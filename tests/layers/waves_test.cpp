@@ -78,7 +78,6 @@ TEST(LayerWaves, TensilePulseRunsAtTheSpeedOfTheTangent) {
         const double coarse = pulse_speed(model, axis, E, 120) / speed - 1, fine = pulse_speed(model, axis, E, 240) / speed - 1;
         EXPECT_LT(std::abs(fine), 0.01) << name << ' ' << axis << ' ' << E;
         EXPECT_GT(std::log2(std::abs(coarse / fine)), 1.7) << name << ' ' << axis << ' ' << E << ": " << coarse << ' ' << fine;
-        std::printf("%s axis %d E %.3f: %.0f m/s, off by %.4f %.4f\n", name.c_str(), static_cast<int>(axis), E, speed, coarse, fine);
       }
     }
   }
