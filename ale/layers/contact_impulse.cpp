@@ -23,6 +23,8 @@ template <int Dim> struct ContactPoint {
   double asked;  ///< opening, m/s
   double fixed;  ///< its part by velocity_n
   double per_impulse, per_slip; ///< 1/kg: opening, movement along the surface by impulse
+  Vec<Dim> gives; ///< 1/kg: velocity of the node and, by share, of its corners from an impulse
+  std::array<std::array<double, corners>, Dim> corner_gives;
   double impulse = 0;
   Vec<Dim> friction{};
 };
@@ -55,7 +57,6 @@ public:
     if (points_.empty()) {
       return report;
     }
-    keep_velocities();
     iterate(report, settings_.push_out);
     account(report);
     if (pushes_ && state_.taken + report.loss < report.friction_loss) {
@@ -161,7 +162,10 @@ private:
         if (t.status[n] != FootStatus::front || state_.listed[s][n] != 0 || (driven && !near_impulse(s, node, t.segment[n]))) {
           continue;
         }
-        if (driven || t.opening[n] < asked_opening(t.gap[n], t.opening[n], dt_, push_out)) {
+        if (t.current[n] == 0 && driven) { // its foot is of an earlier step
+          track_node(state_.seen_from(s, surfaces_, dt_), node, state_.tracks[s]);
+        }
+        if (t.status[n] == FootStatus::front && t.current[n] != 0) {
           state_.listed[s][n] = list_foot({s, node, t.segment[n], t.local[n], normal_at(t, n), t.gap[n], t.opening[n], false}, driven, push_out) ? 1 : 0;
         }
       }
@@ -209,12 +213,14 @@ private:
 
   ContactPoint<Dim> make_point(const Candidate<Dim>& from, double asked) {
     const ContactSurface<Dim>&a = *surfaces_[from.side], &b = *surfaces_[1 - from.side];
-    ContactPoint<Dim> p{from.side, from.node, b.corners_of(from.segment), corner_shares<Dim>(from.local), from.normal, asked, 0, 0, 0, 0, {}};
+    ContactPoint<Dim> p{from.side, from.node, b.corners_of(from.segment), corner_shares<Dim>(from.local), from.normal, asked, 0, 0, 0, {}, {}, 0, {}};
     for (std::size_t d = 0; d < Dim; ++d) {
       const int axis = static_cast<int>(d);
-      double w = a.weight * a.inverse_mass(p.node, axis), u = a.weight_n != 0 ? a.weight_n * a.velocity_n[d][p.node] : 0.0;
+      p.gives[d] = a.inverse_mass(p.node, axis);
+      double w = a.weight * p.gives[d], u = a.weight_n != 0 ? a.weight_n * a.velocity_n[d][p.node] : 0.0;
       for (std::size_t c = 0; c < p.corners; ++c) {
-        w += p.share[c] * p.share[c] * b.weight * b.inverse_mass(p.corner[c], axis);
+        p.corner_gives[d][c] = p.share[c] * b.inverse_mass(p.corner[c], axis);
+        w += p.share[c] * b.weight * p.corner_gives[d][c];
         u -= b.weight_n != 0 ? p.share[c] * b.weight_n * b.velocity_n[d][p.corner[c]] : 0.0;
       }
       p.per_impulse += p.normal[d] * p.normal[d] * w;
@@ -224,18 +230,21 @@ private:
     return p;
   }
 
-  void keep_velocities() {
+  void restore_velocities() {
     for (std::size_t s = 0; s < 2; ++s) {
-      for (std::size_t d = 0; d < Dim; ++d) {
-        const double* v = surfaces_[s]->velocity[d];
-        state_.before[s][d].assign(v, v + surfaces_[s]->node_count());
+      for (std::size_t n = 0; n < state_.touched[s].size(); ++n) {
+        for (std::size_t d = 0; d < Dim && state_.touched[s][n] != 0; ++d) {
+          surfaces_[s]->velocity[d][n] = state_.before[s][d][n];
+        }
       }
     }
   }
-  void restore_velocities() {
-    for (std::size_t s = 0; s < 2; ++s) {
+  void touch(std::size_t s, int node) {
+    const auto n = static_cast<std::size_t>(node);
+    if (state_.touched[s][n] == 0) {
+      state_.touched[s][n] = 1;
       for (std::size_t d = 0; d < Dim; ++d) {
-        std::copy(state_.before[s][d].begin(), state_.before[s][d].end(), surfaces_[s]->velocity[d]);
+        state_.before[s][d][n] = surfaces_[s]->velocity[d][node];
       }
     }
   }
@@ -282,16 +291,15 @@ private:
   }
 
   void push(const ContactPoint<Dim>& p, const Vec<Dim>& impulse) {
-    ContactSurface<Dim>&a = *surfaces_[p.side], &b = *surfaces_[1 - p.side];
-    state_.touched[p.side][static_cast<std::size_t>(p.node)] = 1;
-    for (std::size_t c = 0; c < p.corners; ++c) {
-      state_.touched[1 - p.side][static_cast<std::size_t>(p.corner[c])] = 1;
+    const ContactSurface<Dim>&a = *surfaces_[p.side], &b = *surfaces_[1 - p.side];
+    touch(p.side, p.node);
+    for (const int c : p.corner) {
+      touch(1 - p.side, c);
     }
     for (std::size_t d = 0; d < Dim; ++d) {
-      const int axis = static_cast<int>(d);
-      a.velocity[d][p.node] += impulse[d] * a.inverse_mass(p.node, axis);
+      a.velocity[d][p.node] += impulse[d] * p.gives[d];
       for (std::size_t c = 0; c < p.corners; ++c) {
-        b.velocity[d][p.corner[c]] -= impulse[d] * p.share[c] * b.inverse_mass(p.corner[c], axis);
+        b.velocity[d][p.corner[c]] -= impulse[d] * p.corner_gives[d][c];
       }
     }
   }

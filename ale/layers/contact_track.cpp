@@ -9,6 +9,7 @@ namespace {
 
 constexpr double entry_depth = 0.1; ///< of a segment's extent: a node found deeper was there before
 constexpr int longest_walk = 64;    ///< segments
+constexpr double least_slide = 1e-9, least_depth = 1e-9; ///< of a segment: less is round-off
 
 template <int Dim> using Vec = std::array<double, Dim>;
 
@@ -27,15 +28,19 @@ double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0
 template <int Dim> struct Patch {
   Vec<Dim> f, f_a, f_b, f_ab;
 
-  template <class Fields> Patch(const Fields& fields, const std::array<int, 1 << (Dim - 1)>& corner) {
+  /// at(c): the field at a corner.
+  template <class Corner> explicit Patch(Corner&& at) {
+    const Vec<Dim> low = at(0), high = at(1);
+    f = low;
     for (std::size_t d = 0; d < Dim; ++d) {
-      const auto at = [&](std::size_t c) { return fields[d][static_cast<std::size_t>(corner[c])]; };
-      f[d] = at(0);
-      f_a[d] = at(1) - at(0);
+      f_a[d] = high[d] - low[d];
       f_b[d] = f_ab[d] = 0;
-      if constexpr (Dim == 3) {
-        f_b[d] = at(2) - at(0);
-        f_ab[d] = at(3) - at(1) - f_b[d];
+    }
+    if constexpr (Dim == 3) {
+      const Vec<3> low_high = at(2), high_high = at(3);
+      for (std::size_t d = 0; d < 3; ++d) {
+        f_b[d] = low_high[d] - low[d];
+        f_ab[d] = high_high[d] - high[d] - f_b[d];
       }
     }
   }
@@ -65,6 +70,11 @@ template <int Dim> struct Patch {
 /// A vector across a patch with these tangents, not of unit length.
 Vec<3> upright(const Vec<3>& a, const Vec<3>& b) { return cross(a, b); }
 Vec<2> upright(const Vec<2>& a, const Vec<2>&) { return {-a[1], a[0]}; }
+
+template <int Dim> Patch<Dim> places(const ContactSurface<Dim>& s, int segment) {
+  const auto corner = s.corners_of(segment);
+  return Patch<Dim>([&](std::size_t c) { return s.place(corner[c]); });
+}
 
 template <int Dim> void add(Vec<Dim>& v, double factor, const Vec<Dim>& w) {
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -107,15 +117,15 @@ template <int Dim> void ContactTrack<Dim>::resize(int nodes) {
   gap.resize(n);
   opening.resize(n);
   leaves.resize(n);
+  current.resize(n);
   for (std::vector<double>& c : normal) {
     c.resize(n);
   }
 }
 
-template <int Dim>
-Foot<Dim> find_foot(const ContactSurface<Dim>& s, const NodeNormals<Dim>& normals, int segment, const std::array<double, Dim>& point, const std::array<double, 2>& start) {
+template <int Dim> Foot<Dim> find_foot(const ContactSurface<Dim>& s, int segment, const std::array<double, Dim>& point, const std::array<double, 2>& start) {
   const auto corner = s.corners_of(segment);
-  const Patch<Dim> place(s.position, corner), normal(normals, corner);
+  const Patch<Dim> place = places(s, segment), normal([&](std::size_t c) { return node_normal(s, corner[c]); });
   Foot<Dim> foot;
   double& a = foot.local[0];
   double& b = foot.local[1];
@@ -156,7 +166,7 @@ Foot<Dim> find_foot(const ContactSurface<Dim>& s, const NodeNormals<Dim>& normal
 }
 
 template <int Dim> Foot<Dim> orthogonal_foot(const ContactSurface<Dim>& s, int segment, const std::array<double, Dim>& point, const Foot<Dim>& foot) {
-  const Patch<Dim> place(s.position, s.corners_of(segment));
+  const Patch<Dim> place = places(s, segment);
   double a = foot.local[0], b = foot.local[1];
   Foot<Dim> out;
   for (int iteration = 0; iteration < 8 && !out.found; ++iteration) {
@@ -221,26 +231,23 @@ std::array<double, Dim> relative_velocity(const ContactSurface<Dim>& nodes, int 
 
 namespace {
 
-/// Bits of the sides of its segment that a foot leaves while it moves by `way`, for a node near enough to touch meanwhile.
-template <int Dim>
-unsigned char sides_left(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local, double gap, const Vec<Dim>& way) {
+/// Bits of the sides of its segment that a foot leaves while it moves by `way`.
+template <int Dim> unsigned char sides_left(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local, const Vec<Dim>& way) {
   unsigned bits = 0;
-  if (gap > 0 && gap * gap > dot<Dim>(way, way)) {
-    return 0;
-  }
-  const Patch<Dim> place(s.position, s.corners_of(segment));
+  const Patch<Dim> place = places(s, segment);
   for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
     const Vec<Dim> along = axis == 0 ? place.along_a(local[1]) : place.along_b(local[0]);
     const double by = dot<Dim>(way, along) / dot<Dim>(along, along);
-    bits |= (by < 0 && local[axis] + by < 0 ? 1U : by > 0 && local[axis] + by > 1 ? 2U : 0U) << 2 * axis;
+    bits |= (by < -least_slide && local[axis] + by < 0 ? 1U : by > least_slide && local[axis] + by > 1 ? 2U : 0U) << 2 * axis;
   }
   return static_cast<unsigned char>(bits);
 }
 
 } // namespace
 
-template <int Dim>
-void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& found, double dt, ContactTrack<Dim>& track) {
+template <int Dim> void note_foot(const TrackPair<Dim>& pair, int node, int segment, const Foot<Dim>& found, ContactTrack<Dim>& track) {
+  const ContactSurface<Dim>&nodes = pair.nodes, &other = pair.other;
+  const double dt = pair.dt;
   const Foot<Dim> foot = orthogonal_foot<Dim>(other, segment, nodes.place(node), found);
   const auto n = static_cast<std::size_t>(node);
   track.segment[n] = segment;
@@ -263,20 +270,19 @@ void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<
     track.normal[d][n] = foot.normal[d];
     u[d] *= dt;
   }
-  track.leaves[n] = sides_left<Dim>(other, segment, track.local[n], foot.gap, u);
+  track.current[n] = 1;
+  const bool near = foot.gap <= 0 || foot.gap * foot.gap <= dot<Dim>(u, u);
+  track.leaves[n] = near ? sides_left<Dim>(other, segment, track.local[n], u) : static_cast<unsigned char>(0);
 }
 
-namespace {
-
-/// Walks from the last foot. Past an edge: the status says so and the last segment is kept.
-template <int Dim>
-void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, ContactTrack<Dim>& track) {
+template <int Dim> void track_node(const TrackPair<Dim>& pair, int node, ContactTrack<Dim>& track) {
+  const ContactSurface<Dim>& other = pair.other;
   const auto n = static_cast<std::size_t>(node);
-  const Vec<Dim> x = nodes.place(node);
+  const Vec<Dim> x = pair.nodes.place(node);
   int segment = track.segment[n];
   std::array<double, 2> start = track.local[n];
   for (int step = 0; step < longest_walk; ++step) {
-    const Foot<Dim> foot = find_foot<Dim>(other, normals, segment, x, start);
+    const Foot<Dim> foot = find_foot<Dim>(other, segment, x, start);
     if (!foot.found) {
       break;
     }
@@ -284,7 +290,7 @@ void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface
     const int di = walk(foot.local[0], i, other.segments[0]), dj = Dim == 3 ? walk(foot.local[1], j, other.segments[1]) : 0;
     if (di == 0 && dj == 0) {
       if (touches(other, segment, foot.local) && other.there(segment)) {
-        note_foot<Dim>(nodes, node, other, segment, foot, dt, track);
+        note_foot(pair, node, segment, foot, track);
       } else {
         track.status[n] = FootStatus::beside;
         track.segment[n] = segment;
@@ -298,34 +304,79 @@ void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface
   track.status[n] = FootStatus::lost;
 }
 
+namespace {
+
+/// With the last foot's shares and normal: gap and rate; true if that is all a node in front needs in this step.
+template <int Dim> bool stays_clear(const TrackPair<Dim>& pair, int node, ContactTrack<Dim>& track) {
+  const auto n = static_cast<std::size_t>(node);
+  const int segment = track.segment[n];
+  const std::array<double, 2> local = track.local[n];
+  const ContactSurface<Dim>& other = pair.other;
+  const Vec<Dim> u = relative_velocity<Dim>(pair.nodes, node, other, segment, local);
+  const double slid = pair.dt * pair.dt * dot<Dim>(u, u);
+  track.current[n] = 0;
+  track.leaves[n] = 0;
+  track.opening[n] = 0;
+  if (!other.there(segment)) {
+    return false;
+  }
+  if (slid == 0) {
+    return true;
+  }
+  const auto corner = other.corners_of(segment);
+  const auto share = corner_shares<Dim>(local);
+  double gap = 0, opening = 0, size = 0;
+  Vec<Dim> way; // from the old foot to where the node will be
+  for (std::size_t d = 0; d < Dim; ++d) {
+    way[d] = pair.nodes.position[d][node];
+    for (std::size_t c = 0; c < corner.size(); ++c) {
+      way[d] -= share[c] * other.position[d][corner[c]];
+    }
+    const double side = other.position[d][corner[1]] - other.position[d][corner[0]];
+    gap += track.normal[d][n] * way[d];
+    opening += track.normal[d][n] * u[d];
+    size += side * side;
+    way[d] += pair.dt * u[d];
+  }
+  track.gap[n] = gap;
+  track.opening[n] = opening;
+  const double next = gap + pair.dt * opening;
+  double along = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    way[d] -= next * track.normal[d][n];
+    along += way[d] * way[d];
+  }
+  const bool inside = next < 0 && next * next > least_depth * least_depth * size;
+  return !inside && slid < 1e-4 * size && along < 1e-3 * size && sides_left<Dim>(other, segment, local, way) == 0;
+}
+
 } // namespace
 
-template <int Dim>
-void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, std::array<int, 2> range,
-                 ContactTrack<Dim>& track) {
+template <int Dim> void track_nodes(const TrackPair<Dim>& pair, std::array<int, 2> range, bool refresh, ContactTrack<Dim>& track) {
   for (int node = range[0]; node < range[1]; ++node) {
     const auto n = static_cast<std::size_t>(node);
-    bool sheet = false; // a segment is there around the node: debris touches nothing
-    for (std::size_t d = 0; d < Dim; ++d) {
-      sheet = sheet || own[d][n] != 0;
-    }
     FootStatus& status = track.status[n];
-    if (!sheet) {
+    if (refresh && !on_sheet(pair.nodes, node)) {
       status = FootStatus::away;
-    } else if (status != FootStatus::away && status != FootStatus::lost) {
-      track_node<Dim>(nodes, node, other, normals, dt, track);
+    }
+    if (status == FootStatus::away || status == FootStatus::lost || (status == FootStatus::behind && !refresh)) {
+      continue;
+    }
+    if (refresh || status == FootStatus::beside || !stays_clear(pair, node, track)) {
+      track_node(pair, node, track);
     }
   }
 }
 
 #define BALLAST_INSTANTIATE(D)                                                                                                   \
   template struct ContactTrack<D>;                                                                                               \
-  template Foot<D> find_foot<D>(const ContactSurface<D>&, const NodeNormals<D>&, int, const std::array<double, D>&, const std::array<double, 2>&); \
+  template Foot<D> find_foot<D>(const ContactSurface<D>&, int, const std::array<double, D>&, const std::array<double, 2>&); \
   template Foot<D> orthogonal_foot<D>(const ContactSurface<D>&, int, const std::array<double, D>&, const Foot<D>&);             \
   template double segment_extent<D>(const ContactSurface<D>&, int);                                                              \
-  template void track_nodes<D>(const ContactSurface<D>&, const NodeNormals<D>&, const ContactSurface<D>&, const NodeNormals<D>&, double, std::array<int, 2>, ContactTrack<D>&); \
+  template void track_nodes<D>(const TrackPair<D>&, std::array<int, 2>, bool, ContactTrack<D>&);                                 \
+  template void track_node<D>(const TrackPair<D>&, int, ContactTrack<D>&);                                                       \
   template std::array<double, D> relative_velocity<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const std::array<double, 2>&); \
-  template void note_foot<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const Foot<D>&, double, ContactTrack<D>&);
+  template void note_foot<D>(const TrackPair<D>&, int, int, const Foot<D>&, ContactTrack<D>&);
 BALLAST_INSTANTIATE(2)
 BALLAST_INSTANTIATE(3)
 #undef BALLAST_INSTANTIATE
