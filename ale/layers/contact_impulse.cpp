@@ -118,39 +118,55 @@ private:
   }
 
   void add_neighbours(std::size_t s, int node) {
-    const ContactTrack<Dim>& t = state_.tracks[s];
-    const ContactSurface<Dim>&a = *surfaces_[s], &b = *surfaces_[1 - s];
-    const auto n = static_cast<std::size_t>(node);
-    const std::array<int, 2> at = {t.segment[n] % b.segments[0], t.segment[n] / b.segments[0]}, stride = {1, b.segments[0]};
-    for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
-      for (int side = 0; side < 2; ++side) {
-        const int step = side == 0 ? -1 : 1, to = at[axis] + step, segment = t.segment[n] + step * stride[axis];
-        if ((t.leaves[n] >> (2 * axis + static_cast<std::size_t>(side)) & 1) == 0 || to < 0 || to >= b.segments[axis] || !b.there(segment)) {
-          continue;
-        }
-        Foot<Dim> foot;
-        foot.local = t.local[n];
-        foot.local[axis] = side == 0 ? 1 : 0;
-        foot = orthogonal_foot<Dim>(b, segment, a.place(node), foot);
-        if (foot.found && rises(b, segment, axis, step, foot, normal_at(t, n))) {
-          const Vec<Dim> u = relative_velocity<Dim>(a, node, b, segment, foot.local);
-          candidates_.push_back({s, node, segment, foot.local, foot.normal, foot.gap, dot(u, foot.normal), false});
+    const unsigned bits = state_.tracks[s].leaves[static_cast<std::size_t>(node)];
+    const auto steps = [&](unsigned axis) { return std::array<int, 2>{(bits >> 2 * axis & 1) != 0 ? -1 : 0, (bits >> 2 * axis & 2) != 0 ? 1 : 0}; };
+    const std::array<int, 2> first = steps(0), second = steps(1);
+    for (int dj = second[0]; dj <= second[1]; ++dj) {
+      for (int di = first[0]; di <= first[1]; ++di) {
+        if (di != 0 || dj != 0) {
+          add_neighbour(s, node, {di, dj});
         }
       }
     }
   }
 
-  /// The next segment along an axis turns towards the side that touches: a valley between them.
-  static bool rises(const ContactSurface<Dim>& b, int segment, std::size_t axis, int step, const Foot<Dim>& foot, const Vec<Dim>& normal) {
-    const auto corner = b.corners_of(segment);
-    const int from = corner[0], to = corner[axis == 0 ? 1 : 2];
-    double up = 0, turn = 0;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const double along = step * (b.position[d][to] - b.position[d][from]);
-      up += along * normal[d];
-      turn += foot.normal[d] * normal[d];
+  void add_neighbour(std::size_t s, int node, std::array<int, 2> step) {
+    const ContactTrack<Dim>& t = state_.tracks[s];
+    const ContactSurface<Dim>&a = *surfaces_[s], &b = *surfaces_[1 - s];
+    const auto n = static_cast<std::size_t>(node);
+    const std::array<int, 2> at = {t.segment[n] % b.segments[0] + step[0], t.segment[n] / b.segments[0] + step[1]};
+    const int segment = at[0] + at[1] * b.segments[0];
+    if (at[0] < 0 || at[0] >= b.segments[0] || at[1] < 0 || at[1] >= (Dim == 3 ? b.segments[1] : 1) || !b.there(segment)) {
+      return;
     }
-    return up > 0 && turn > -0.9;
+    Foot<Dim> foot;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      foot.local[axis] = step[axis] == 0 ? t.local[n][axis] : step[axis] < 0 ? 1 : 0;
+    }
+    if (!rises(b, segment, step, foot.local, normal_at(t, n))) {
+      return;
+    }
+    foot = orthogonal_foot<Dim>(b, segment, a.place(node), foot);
+    if (foot.found && dot(foot.normal, normal_at(t, n)) > -0.9) {
+      const Vec<Dim> u = relative_velocity<Dim>(a, node, b, segment, foot.local);
+      candidates_.push_back({s, node, segment, foot.local, foot.normal, foot.gap, dot(u, foot.normal), false});
+    }
+  }
+
+  /// The segment turns towards the side that touches: there is a valley between it and the one that has this normal.
+  static bool rises(const ContactSurface<Dim>& b, int segment, std::array<int, 2> step, const std::array<double, 2>& local, const Vec<Dim>& normal) {
+    const auto corner = b.corners_of(segment);
+    const auto near = corner_shares<Dim>(local), far = corner_shares<Dim>({local[0] + step[0], local[1] + step[1]});
+    double up = 0, square = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double along = 0;
+      for (std::size_t c = 0; c < corner.size(); ++c) {
+        along += (far[c] - near[c]) * b.position[d][corner[c]];
+      }
+      up += along * normal[d];
+      square += along * along;
+    }
+    return up > 0 && up * up > 1e-12 * square;
   }
 
   /// Lists the nodes that ask for more than they have; `driven`: among those near an impulse that are not listed yet.

@@ -231,16 +231,28 @@ std::array<double, Dim> relative_velocity(const ContactSurface<Dim>& nodes, int 
 
 namespace {
 
-/// Bits of the sides of its segment that a foot leaves while it moves by `way`.
-template <int Dim> unsigned char sides_left(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local, const Vec<Dim>& way) {
+/// Bits of the sides of its segment that a foot can come to within `reach`.
+template <int Dim> unsigned char sides_near(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local, double reach) {
   unsigned bits = 0;
   const Patch<Dim> place = places(s, segment);
   for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
     const Vec<Dim> along = axis == 0 ? place.along_a(local[1]) : place.along_b(local[0]);
-    const double by = dot<Dim>(way, along) / dot<Dim>(along, along);
-    bits |= (by < -least_slide && local[axis] + by < 0 ? 1U : by > least_slide && local[axis] + by > 1 ? 2U : 0U) << 2 * axis;
+    const double by = reach / std::sqrt(dot<Dim>(along, along));
+    bits |= ((by > local[axis] ? 1U : 0U) | (by > 1 - local[axis] ? 2U : 0U)) << 2 * axis;
   }
   return static_cast<unsigned char>(bits);
+}
+
+/// A foot leaves its segment while it moves by `way`.
+template <int Dim> bool goes_off(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local, const Vec<Dim>& way) {
+  const Patch<Dim> place = places(s, segment);
+  bool off = false;
+  for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
+    const Vec<Dim> along = axis == 0 ? place.along_a(local[1]) : place.along_b(local[0]);
+    const double by = dot<Dim>(way, along) / dot<Dim>(along, along);
+    off = off || (by < -least_slide && local[axis] + by < 0) || (by > least_slide && local[axis] + by > 1);
+  }
+  return off;
 }
 
 } // namespace
@@ -271,8 +283,8 @@ template <int Dim> void note_foot(const TrackPair<Dim>& pair, int node, int segm
     u[d] *= dt;
   }
   track.current[n] = 1;
-  const bool near = foot.gap <= 0 || foot.gap * foot.gap <= dot<Dim>(u, u);
-  track.leaves[n] = near ? sides_left<Dim>(other, segment, track.local[n], u) : static_cast<unsigned char>(0);
+  const double reach = std::sqrt(dot<Dim>(u, u));
+  track.leaves[n] = reach > 0 && foot.gap <= reach ? sides_near<Dim>(other, segment, track.local[n], reach) : static_cast<unsigned char>(0);
 }
 
 template <int Dim> void track_node(const TrackPair<Dim>& pair, int node, ContactTrack<Dim>& track) {
@@ -347,7 +359,7 @@ template <int Dim> bool stays_clear(const TrackPair<Dim>& pair, int node, Contac
     along += way[d] * way[d];
   }
   const bool inside = next < 0 && next * next > least_depth * least_depth * size;
-  return !inside && slid < 1e-4 * size && along < 1e-3 * size && sides_left<Dim>(other, segment, local, way) == 0;
+  return !inside && slid < 1e-4 * size && along < 1e-3 * size && !goes_off<Dim>(other, segment, local, way);
 }
 
 } // namespace

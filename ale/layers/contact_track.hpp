@@ -32,7 +32,7 @@ template <int Dim> struct ContactTrack {
 
   std::vector<double> gap;     ///< m, at the step's start
   std::vector<double> opening; ///< m/s: the rate of the gap over the step
-  std::vector<unsigned char> leaves; ///< where it may touch and its foot leaves the segment in the step: bits low and high of axis 0, then of axis 1
+  std::vector<unsigned char> leaves; ///< where it may touch: sides of its segment within the step's reach, bits low and high of axis 0, then of axis 1
   std::array<std::vector<double>, Dim> normal; ///< at the foot
   std::vector<char> current;   ///< the foot is that of this step
 
