@@ -16,6 +16,7 @@
 // Coulomb friction, static = kinetic: a total of at most mu lambda along the surface.
 #pragma once
 
+#include "ale/layers/contact_point.hpp"
 #include "ale/layers/contact_track.hpp"
 #include "core/threads.hpp"
 
@@ -57,6 +58,8 @@ template <int Dim> struct ContactState {
 
   std::array<std::array<std::vector<double>, Dim>, 2> before; ///< velocities
   std::array<std::vector<char>, 2> touched, listed;
+  std::vector<ContactPoint<Dim>> points;
+  std::vector<ContactCandidate<Dim>> candidates; ///< beyond the sides of nodes' segments
 
   TrackPair<Dim> seen_from(std::size_t s, const std::array<ContactSurface<Dim>*, 2>& surfaces, double dt) const {
     return {*surfaces[s], *surfaces[1 - s], dt};

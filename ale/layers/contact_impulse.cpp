@@ -11,33 +11,13 @@ namespace {
 template <int Dim> using Vec = std::array<double, Dim>;
 template <int Dim> using Surfaces = std::array<ContactSurface<Dim>*, 2>;
 
-/// A node in contact and what it asks for.
-template <int Dim> struct ContactPoint {
-  static constexpr std::size_t corners = 1 << (Dim - 1);
-
-  std::size_t side;
-  int node;
-  std::array<int, corners> corner;
-  std::array<double, corners> share;
-  Vec<Dim> normal;
-  double asked;  ///< opening, m/s
-  double fixed;  ///< its part by velocity_n
-  double per_impulse, per_slip; ///< 1/kg: opening, movement along the surface by impulse
-  Vec<Dim> gives; ///< 1/kg: velocity of the node and, by share, of its corners from an impulse
-  std::array<std::array<double, corners>, Dim> corner_gives;
-  double impulse = 0;
-  Vec<Dim> friction{};
-};
-
-/// A foot that may become a contact point.
-template <int Dim> struct Candidate {
-  std::size_t side;
-  int node, segment;
-  std::array<double, 2> local;
-  Vec<Dim> normal;
-  double gap, opening; ///< opening: before contact
-  bool listed;
-};
+template <std::size_t Dim> double dot(const std::array<double, Dim>& a, const std::array<double, Dim>& b) {
+  double sum = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    sum += a[d] * b[d];
+  }
+  return sum;
+}
 
 /// What the opening of a node has to be at least.
 double asked_opening(double gap, double opening, double dt, double push_out) {
@@ -52,9 +32,9 @@ public:
     ContactReport report;
     clear();
     measure(report);
-    find_candidates();
+    find_neighbours<Dim>(surfaces_, state_);
     list(false, settings_.push_out);
-    if (points_.empty()) {
+    if (state_.points.empty()) {
       return report;
     }
     iterate(report, settings_.push_out);
@@ -72,9 +52,9 @@ public:
 
 private:
   void clear() {
-    points_.clear();
+    state_.points.clear();
     pushes_ = false;
-    for (Candidate<Dim>& c : candidates_) {
+    for (ContactCandidate<Dim>& c : state_.candidates) {
       c.listed = false;
     }
     for (std::size_t s = 0; s < 2; ++s) {
@@ -103,72 +83,6 @@ private:
     }
   }
 
-  /// Feet that nodes may come to in the step: those tracked, and beyond a side that they leave, where the surface rises there.
-  void find_candidates() {
-    candidates_.clear();
-    for (std::size_t s = 0; s < 2; ++s) {
-      const ContactTrack<Dim>& t = state_.tracks[s];
-      for (int node = 0; node < surfaces_[s]->node_count(); ++node) {
-        const auto n = static_cast<std::size_t>(node);
-        if (t.status[n] == FootStatus::front && t.leaves[n] != 0) {
-          add_neighbours(s, node);
-        }
-      }
-    }
-  }
-
-  void add_neighbours(std::size_t s, int node) {
-    const unsigned bits = state_.tracks[s].leaves[static_cast<std::size_t>(node)];
-    const auto steps = [&](unsigned axis) { return std::array<int, 2>{(bits >> 2 * axis & 1) != 0 ? -1 : 0, (bits >> 2 * axis & 2) != 0 ? 1 : 0}; };
-    const std::array<int, 2> first = steps(0), second = steps(1);
-    for (int dj = second[0]; dj <= second[1]; ++dj) {
-      for (int di = first[0]; di <= first[1]; ++di) {
-        if (di != 0 || dj != 0) {
-          add_neighbour(s, node, {di, dj});
-        }
-      }
-    }
-  }
-
-  void add_neighbour(std::size_t s, int node, std::array<int, 2> step) {
-    const ContactTrack<Dim>& t = state_.tracks[s];
-    const ContactSurface<Dim>&a = *surfaces_[s], &b = *surfaces_[1 - s];
-    const auto n = static_cast<std::size_t>(node);
-    const std::array<int, 2> at = {t.segment[n] % b.segments[0] + step[0], t.segment[n] / b.segments[0] + step[1]};
-    const int segment = at[0] + at[1] * b.segments[0];
-    if (at[0] < 0 || at[0] >= b.segments[0] || at[1] < 0 || at[1] >= (Dim == 3 ? b.segments[1] : 1) || !b.there(segment)) {
-      return;
-    }
-    Foot<Dim> foot;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      foot.local[axis] = step[axis] == 0 ? t.local[n][axis] : step[axis] < 0 ? 1 : 0;
-    }
-    if (!rises(b, segment, step, foot.local, normal_at(t, n))) {
-      return;
-    }
-    foot = orthogonal_foot<Dim>(b, segment, a.place(node), foot);
-    if (foot.found && dot(foot.normal, normal_at(t, n)) > -0.9) {
-      const Vec<Dim> u = relative_velocity<Dim>(a, node, b, segment, foot.local);
-      candidates_.push_back({s, node, segment, foot.local, foot.normal, foot.gap, dot(u, foot.normal), false});
-    }
-  }
-
-  /// The segment turns towards the side that touches: there is a valley between it and the one that has this normal.
-  static bool rises(const ContactSurface<Dim>& b, int segment, std::array<int, 2> step, const std::array<double, 2>& local, const Vec<Dim>& normal) {
-    const auto corner = b.corners_of(segment);
-    const auto near = corner_shares<Dim>(local), far = corner_shares<Dim>({local[0] + step[0], local[1] + step[1]});
-    double up = 0, square = 0;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      double along = 0;
-      for (std::size_t c = 0; c < corner.size(); ++c) {
-        along += (far[c] - near[c]) * b.position[d][corner[c]];
-      }
-      up += along * normal[d];
-      square += along * along;
-    }
-    return up > 0 && up * up > 1e-12 * square;
-  }
-
   /// Lists the nodes that ask for more than they have; `driven`: among those near an impulse that are not listed yet.
   void list(bool driven, double push_out) {
     for (std::size_t s = 0; s < 2; ++s) {
@@ -182,25 +96,25 @@ private:
           track_node(state_.seen_from(s, surfaces_, dt_), node, state_.tracks[s]);
         }
         if (t.status[n] == FootStatus::front && t.current[n] != 0) {
-          state_.listed[s][n] = list_foot({s, node, t.segment[n], t.local[n], normal_at(t, n), t.gap[n], t.opening[n], false}, driven, push_out) ? 1 : 0;
+          state_.listed[s][n] = list_foot({s, node, t.segment[n], t.local[n], t.normal_at(n), t.gap[n], t.opening[n], false}, driven, push_out) ? 1 : 0;
         }
       }
     }
-    for (Candidate<Dim>& c : candidates_) {
+    for (ContactCandidate<Dim>& c : state_.candidates) {
       if (!c.listed && (!driven || near_impulse(c.side, c.node, c.segment))) {
         c.listed = list_foot(c, driven, push_out);
       }
     }
   }
 
-  bool list_foot(const Candidate<Dim>& c, bool driven, double push_out) {
+  bool list_foot(const ContactCandidate<Dim>& c, bool driven, double push_out) {
     const double asked = asked_opening(c.gap, c.opening, dt_, push_out);
     const double opening = driven ? dot(relative_velocity<Dim>(*surfaces_[c.side], c.node, *surfaces_[1 - c.side], c.segment, c.local), c.normal) : c.opening;
     if (!(opening < asked)) {
       return false;
     }
     pushes_ = pushes_ || asked > 0;
-    points_.push_back(make_point(c, asked));
+    state_.points.push_back(make_point(c, asked));
     return true;
   }
 
@@ -212,22 +126,7 @@ private:
     return near;
   }
 
-  static double dot(const Vec<Dim>& a, const Vec<Dim>& b) {
-    double sum = 0;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      sum += a[d] * b[d];
-    }
-    return sum;
-  }
-  static Vec<Dim> normal_at(const ContactTrack<Dim>& t, std::size_t n) {
-    Vec<Dim> v;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      v[d] = t.normal[d][n];
-    }
-    return v;
-  }
-
-  ContactPoint<Dim> make_point(const Candidate<Dim>& from, double asked) {
+  ContactPoint<Dim> make_point(const ContactCandidate<Dim>& from, double asked) {
     const ContactSurface<Dim>&a = *surfaces_[from.side], &b = *surfaces_[1 - from.side];
     ContactPoint<Dim> p{from.side, from.node, b.corners_of(from.segment), corner_shares<Dim>(from.local), from.normal, asked, 0, 0, 0, {}, {}, 0, {}};
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -272,7 +171,7 @@ private:
       double worst = 0;
       for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
         worst = 0;
-        for (ContactPoint<Dim>& p : points_) {
+        for (ContactPoint<Dim>& p : state_.points) {
           worst = std::max(worst, relax(p));
         }
         ++report.sweeps;
@@ -282,11 +181,11 @@ private:
         }
       }
       report.violation = dt_ * worst;
-      const std::size_t known = points_.size();
+      const std::size_t known = state_.points.size();
       if (round + 1 < settings_.rounds) {
         list(true, push_out);
       }
-      if (points_.size() == known) {
+      if (state_.points.size() == known) {
         break;
       }
     }
@@ -390,7 +289,7 @@ private:
     report.loss = report.friction_loss = report.impulse = 0;
     report.active = 0;
     report.impulse_sum = {0, 0, 0};
-    for (const ContactPoint<Dim>& p : points_) {
+    for (const ContactPoint<Dim>& p : state_.points) {
       report.active += p.impulse > 0 ? 1 : 0;
       report.impulse += p.impulse;
       report.friction_loss -= settings_.friction > 0 ? friction_work(p) : 0.0;
@@ -416,8 +315,6 @@ private:
   double dt_;
   const ContactSettings& settings_;
   ContactState<Dim>& state_;
-  std::vector<ContactPoint<Dim>> points_;
-  std::vector<Candidate<Dim>> candidates_;
   bool pushes_ = false;
 };
 

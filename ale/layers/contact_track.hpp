@@ -37,6 +37,13 @@ template <int Dim> struct ContactTrack {
   std::vector<char> current;   ///< the foot is that of this step
 
   void resize(int nodes);
+  std::array<double, Dim> normal_at(std::size_t node) const {
+    std::array<double, Dim> v;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      v[d] = normal[d][node];
+    }
+    return v;
+  }
 };
 
 /// A foot: shares of the corners follow from `local`.
