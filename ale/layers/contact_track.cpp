@@ -318,8 +318,10 @@ template <int Dim> void track_node(const TrackPair<Dim>& pair, int node, Contact
 
 namespace {
 
-/// With the last foot's shares and normal: gap and rate; true if that is all a node in front needs in this step.
-template <int Dim> bool stays_clear(const TrackPair<Dim>& pair, int node, ContactTrack<Dim>& track) {
+enum class Outlook { clear, touches, moves };
+
+/// With the last foot's shares and normal: gap and rate; what a node in front does in this step.
+template <int Dim> Outlook look_ahead(const TrackPair<Dim>& pair, int node, ContactTrack<Dim>& track) {
   const auto n = static_cast<std::size_t>(node);
   const int segment = track.segment[n];
   const std::array<double, 2> local = track.local[n];
@@ -330,10 +332,10 @@ template <int Dim> bool stays_clear(const TrackPair<Dim>& pair, int node, Contac
   track.leaves[n] = 0;
   track.opening[n] = 0;
   if (!other.there(segment)) {
-    return false;
+    return Outlook::moves;
   }
   if (slid == 0) {
-    return true;
+    return Outlook::clear;
   }
   const auto corner = other.corners_of(segment);
   const auto share = corner_shares<Dim>(local);
@@ -359,7 +361,10 @@ template <int Dim> bool stays_clear(const TrackPair<Dim>& pair, int node, Contac
     along += way[d] * way[d];
   }
   const bool inside = next < 0 && next * next > least_depth * least_depth * size;
-  return !inside && slid < 1e-4 * size && along < 1e-3 * size && !goes_off<Dim>(other, segment, local, way);
+  if (!(slid < 1e-4 * size && along < 1e-3 * size) || goes_off<Dim>(other, segment, local, way)) {
+    return Outlook::moves;
+  }
+  return inside ? Outlook::touches : Outlook::clear;
 }
 
 } // namespace
@@ -374,8 +379,11 @@ template <int Dim> void track_nodes(const TrackPair<Dim>& pair, std::array<int, 
     if (status == FootStatus::away || status == FootStatus::lost || (status == FootStatus::behind && !refresh)) {
       continue;
     }
-    if (refresh || status == FootStatus::beside || !stays_clear(pair, node, track)) {
+    const Outlook outlook = refresh || status == FootStatus::beside ? Outlook::moves : look_ahead(pair, node, track);
+    if (outlook == Outlook::moves) {
       track_node(pair, node, track);
+    } else if (outlook == Outlook::touches) {
+      note_foot(pair, node, track.segment[n], Foot<Dim>{track.local[n], track.gap[n], track.normal_at(n), true}, track);
     }
   }
 }

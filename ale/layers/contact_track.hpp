@@ -7,7 +7,7 @@
 // that has lost its foot is looked for among all segments (ale/layers/contact_search).
 //
 // Most nodes neither come closer nor slide far in a step: between full updates (`refresh`) the last foot's shares and normal serve
-// to see that, and only nodes that would come inside, leave their segment near the surface or go far get a new foot.
+// to see that. Nodes that would come inside get the orthogonal foot anew, those that leave their segment or go far the walk.
 #pragma once
 
 #include "ale/layers/contact_surface.hpp"
