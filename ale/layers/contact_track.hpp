@@ -10,7 +10,7 @@
 // to see that. Nodes that would come inside get the orthogonal foot anew, those that leave their segment or go far the walk.
 #pragma once
 
-#include "ale/layers/contact_surface.hpp"
+#include "ale/layers/contact_foot.hpp"
 
 #include <vector>
 
@@ -35,6 +35,7 @@ template <int Dim> struct ContactTrack {
   std::vector<unsigned char> leaves; ///< where it may touch: sides of its segment within the step's reach, bits low and high of axis 0, then of axis 1
   std::array<std::vector<double>, Dim> normal; ///< at the foot
   std::vector<char> current;   ///< the foot is that of this step
+  std::vector<char> moved;     ///< relative to its foot, since that was found
 
   void resize(int nodes);
   std::array<double, Dim> normal_at(std::size_t node) const {
@@ -45,20 +46,6 @@ template <int Dim> struct ContactTrack {
     return v;
   }
 };
-
-/// A foot: shares of the corners follow from `local`.
-template <int Dim> struct Foot {
-  std::array<double, 2> local = {0.5, 0.5};
-  double gap = 0;
-  std::array<double, Dim> normal{};
-  bool found = false; ///< on the bilinear patch or its continuation
-};
-
-/// Foot along the interpolated normals, starting from `start`.
-template <int Dim> Foot<Dim> find_foot(const ContactSurface<Dim>& s, int segment, const std::array<double, Dim>& point, const std::array<double, 2>& start);
-
-/// Orthogonal foot near `foot`; `foot` itself where it is too far from the patch for that to matter.
-template <int Dim> Foot<Dim> orthogonal_foot(const ContactSurface<Dim>& s, int segment, const std::array<double, Dim>& point, const Foot<Dim>& foot);
 
 /// The foot lies on its segment, or so little past an outer edge that the segment's continuation serves: sheets whose edges
 /// meet keep touching there while they bend.
@@ -71,9 +58,6 @@ template <int Dim> bool touches(const ContactSurface<Dim>& s, int segment, const
   }
   return in;
 }
-
-/// Half the longest diagonal of a segment, m.
-template <int Dim> double segment_extent(const ContactSurface<Dim>& s, int segment);
 
 /// Two surfaces as seen by the nodes of the first.
 template <int Dim> struct TrackPair {
