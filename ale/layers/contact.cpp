@@ -42,7 +42,7 @@ template <int Dim> void search_missing(const Surfaces<Dim>& surfaces, double dt,
   state.travel = due ? 0 : state.travel;
   for (std::size_t s = 0; s < 2; ++s) {
     if (lost[s] || (due && away[s])) {
-      search_feet<Dim>(*surfaces[s], state.normals[s], *surfaces[1 - s], state.normals[1 - s], dt, due, state.tracks[s]);
+      search_feet(state.seen_from(s, surfaces, dt), due, state.tracks[s]);
     }
   }
 }
@@ -76,7 +76,7 @@ template <int Dim> void ContactState<Dim>::resize(const std::array<const Contact
     tracks[s].resize(surfaces[s]->node_count());
     touched[s].resize(n);
     listed[s].resize(n);
-    for (std::vector<double>& c : normals[s]) {
+    for (std::vector<double>& c : before[s]) {
       c.resize(n);
     }
   }
@@ -98,12 +98,10 @@ ContactReport resolve_contact(ContactSurface<Dim>& a, ContactSurface<Dim>& b, do
       parallel_ranges(*pool, count, body);
     }
   };
-  for (std::size_t s = 0; s < 2; ++s) {
-    over(surfaces[s]->rows(), [&](int begin, int end, int) { find_normals<Dim>(*surfaces[s], begin, end, state.normals[s]); });
-  }
+  const bool refresh = state.steps++ % settings.refresh == 0;
   for (std::size_t s = 0; s < 2; ++s) {
     over(surfaces[s]->node_count(), [&](int begin, int end, int) {
-      track_nodes<Dim>(*surfaces[s], state.normals[s], *surfaces[1 - s], state.normals[1 - s], dt, {begin, end}, state.tracks[s]);
+      track_nodes(state.seen_from(s, surfaces, dt), {begin, end}, refresh, state.tracks[s]);
     });
   }
   return solve_contact(surfaces, dt, settings, state);

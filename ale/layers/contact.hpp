@@ -16,6 +16,7 @@
 // Coulomb friction, static = kinetic: a total of at most mu lambda along the surface.
 #pragma once
 
+#include "ale/layers/contact_point.hpp"
 #include "ale/layers/contact_track.hpp"
 #include "core/threads.hpp"
 
@@ -26,6 +27,7 @@ struct ContactSettings {
   double push_out = 0.3;   ///< share of a penetration taken back in a step
   int sweeps = 20;         ///< of Gauss-Seidel at most, each round
   int rounds = 4;          ///< at most: sweeps, then nodes that were driven into contact join
+  int refresh = 8;         ///< every so many steps all feet are found anew
   double tolerance = 1e-4; ///< of the step's largest violation: sweeps end below
 };
 
@@ -47,16 +49,21 @@ struct ContactReport {
 /// Adds what another pair did: sums, largest values.
 void add_report(ContactReport& to, const ContactReport& part);
 
-/// What contact keeps from step to step (tracks[s]: nodes of surface s; travel, taken) and its work arrays.
+/// What contact keeps from step to step (tracks[s]: nodes of surface s; counters) and its work arrays.
 template <int Dim> struct ContactState {
   std::array<ContactTrack<Dim>, 2> tracks;
   double travel = 0; ///< m: the surfaces' movement since nodes that are away were looked for
+  long steps = 0;    ///< counts to the next refresh
   double taken = 0;  ///< J: lost so far without friction
 
-  std::array<NodeNormals<Dim>, 2> normals;
   std::array<std::array<std::vector<double>, Dim>, 2> before; ///< velocities
   std::array<std::vector<char>, 2> touched, listed;
+  std::vector<ContactPoint<Dim>> points;
+  std::vector<ContactCandidate<Dim>> candidates; ///< beyond the sides of nodes' segments
 
+  TrackPair<Dim> seen_from(std::size_t s, const std::array<ContactSurface<Dim>*, 2>& surfaces, double dt) const {
+    return {*surfaces[s], *surfaces[1 - s], dt};
+  }
   void resize(const std::array<const ContactSurface<Dim>*, 2>& surfaces);
 };
 
@@ -65,7 +72,7 @@ template <int Dim> struct ContactState {
 template <int Dim>
 ContactReport resolve_contact(ContactSurface<Dim>& a, ContactSurface<Dim>& b, double dt, const ContactSettings& settings, ContactState<Dim>& state, ThreadPool* pool = nullptr);
 
-/// The last part of it, once normals and tracks are those of the step: missing feet, impulses, report.
+/// The last part of it, once tracks are those of the step: missing feet, impulses, report.
 template <int Dim> ContactReport solve_contact(const std::array<ContactSurface<Dim>*, 2>& surfaces, double dt, const ContactSettings& settings, ContactState<Dim>& state);
 
 } // namespace ballast

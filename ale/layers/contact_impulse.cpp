@@ -11,31 +11,13 @@ namespace {
 template <int Dim> using Vec = std::array<double, Dim>;
 template <int Dim> using Surfaces = std::array<ContactSurface<Dim>*, 2>;
 
-/// A node in contact and what it asks for.
-template <int Dim> struct ContactPoint {
-  static constexpr std::size_t corners = 1 << (Dim - 1);
-
-  std::size_t side;
-  int node;
-  std::array<int, corners> corner;
-  std::array<double, corners> share;
-  Vec<Dim> normal;
-  double asked;  ///< opening, m/s
-  double fixed;  ///< its part by velocity_n
-  double per_impulse, per_slip; ///< 1/kg: opening, movement along the surface by impulse
-  double impulse = 0;
-  Vec<Dim> friction{};
-};
-
-/// A foot that may become a contact point.
-template <int Dim> struct Candidate {
-  std::size_t side;
-  int node, segment;
-  std::array<double, 2> local;
-  Vec<Dim> normal;
-  double gap, opening; ///< opening: before contact
-  bool listed;
-};
+template <std::size_t Dim> double dot(const std::array<double, Dim>& a, const std::array<double, Dim>& b) {
+  double sum = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    sum += a[d] * b[d];
+  }
+  return sum;
+}
 
 /// What the opening of a node has to be at least.
 double asked_opening(double gap, double opening, double dt, double push_out) {
@@ -50,12 +32,11 @@ public:
     ContactReport report;
     clear();
     measure(report);
-    find_candidates();
+    find_neighbours<Dim>(surfaces_, state_);
     list(false, settings_.push_out);
-    if (points_.empty()) {
+    if (state_.points.empty()) {
       return report;
     }
-    keep_velocities();
     iterate(report, settings_.push_out);
     account(report);
     if (pushes_ && state_.taken + report.loss < report.friction_loss) {
@@ -71,9 +52,9 @@ public:
 
 private:
   void clear() {
-    points_.clear();
+    state_.points.clear();
     pushes_ = false;
-    for (Candidate<Dim>& c : candidates_) {
+    for (ContactCandidate<Dim>& c : state_.candidates) {
       c.listed = false;
     }
     for (std::size_t s = 0; s < 2; ++s) {
@@ -102,56 +83,6 @@ private:
     }
   }
 
-  /// Feet that nodes may come to in the step: those tracked, and beyond a side that they leave, where the surface rises there.
-  void find_candidates() {
-    candidates_.clear();
-    for (std::size_t s = 0; s < 2; ++s) {
-      const ContactTrack<Dim>& t = state_.tracks[s];
-      for (int node = 0; node < surfaces_[s]->node_count(); ++node) {
-        const auto n = static_cast<std::size_t>(node);
-        if (t.status[n] == FootStatus::front && t.leaves[n] != 0) {
-          add_neighbours(s, node);
-        }
-      }
-    }
-  }
-
-  void add_neighbours(std::size_t s, int node) {
-    const ContactTrack<Dim>& t = state_.tracks[s];
-    const ContactSurface<Dim>&a = *surfaces_[s], &b = *surfaces_[1 - s];
-    const auto n = static_cast<std::size_t>(node);
-    const std::array<int, 2> at = {t.segment[n] % b.segments[0], t.segment[n] / b.segments[0]}, stride = {1, b.segments[0]};
-    for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
-      for (int side = 0; side < 2; ++side) {
-        const int step = side == 0 ? -1 : 1, to = at[axis] + step, segment = t.segment[n] + step * stride[axis];
-        if ((t.leaves[n] >> (2 * axis + static_cast<std::size_t>(side)) & 1) == 0 || to < 0 || to >= b.segments[axis] || !b.there(segment)) {
-          continue;
-        }
-        Foot<Dim> foot;
-        foot.local = t.local[n];
-        foot.local[axis] = side == 0 ? 1 : 0;
-        foot = orthogonal_foot<Dim>(b, segment, a.place(node), foot);
-        if (foot.found && rises(b, segment, axis, step, foot, normal_at(t, n))) {
-          const Vec<Dim> u = relative_velocity<Dim>(a, node, b, segment, foot.local);
-          candidates_.push_back({s, node, segment, foot.local, foot.normal, foot.gap, dot(u, foot.normal), false});
-        }
-      }
-    }
-  }
-
-  /// The next segment along an axis turns towards the side that touches: a valley between them.
-  static bool rises(const ContactSurface<Dim>& b, int segment, std::size_t axis, int step, const Foot<Dim>& foot, const Vec<Dim>& normal) {
-    const auto corner = b.corners_of(segment);
-    const int from = corner[0], to = corner[axis == 0 ? 1 : 2];
-    double up = 0, turn = 0;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const double along = step * (b.position[d][to] - b.position[d][from]);
-      up += along * normal[d];
-      turn += foot.normal[d] * normal[d];
-    }
-    return up > 0 && turn > -0.9;
-  }
-
   /// Lists the nodes that ask for more than they have; `driven`: among those near an impulse that are not listed yet.
   void list(bool driven, double push_out) {
     for (std::size_t s = 0; s < 2; ++s) {
@@ -161,26 +92,29 @@ private:
         if (t.status[n] != FootStatus::front || state_.listed[s][n] != 0 || (driven && !near_impulse(s, node, t.segment[n]))) {
           continue;
         }
-        if (driven || t.opening[n] < asked_opening(t.gap[n], t.opening[n], dt_, push_out)) {
-          state_.listed[s][n] = list_foot({s, node, t.segment[n], t.local[n], normal_at(t, n), t.gap[n], t.opening[n], false}, driven, push_out) ? 1 : 0;
+        if (t.current[n] == 0 && driven) { // its foot is of an earlier step
+          track_node(state_.seen_from(s, surfaces_, dt_), node, state_.tracks[s]);
+        }
+        if (t.status[n] == FootStatus::front && t.current[n] != 0) {
+          state_.listed[s][n] = list_foot({s, node, t.segment[n], t.local[n], t.normal_at(n), t.gap[n], t.opening[n], false}, driven, push_out) ? 1 : 0;
         }
       }
     }
-    for (Candidate<Dim>& c : candidates_) {
+    for (ContactCandidate<Dim>& c : state_.candidates) {
       if (!c.listed && (!driven || near_impulse(c.side, c.node, c.segment))) {
         c.listed = list_foot(c, driven, push_out);
       }
     }
   }
 
-  bool list_foot(const Candidate<Dim>& c, bool driven, double push_out) {
+  bool list_foot(const ContactCandidate<Dim>& c, bool driven, double push_out) {
     const double asked = asked_opening(c.gap, c.opening, dt_, push_out);
     const double opening = driven ? dot(relative_velocity<Dim>(*surfaces_[c.side], c.node, *surfaces_[1 - c.side], c.segment, c.local), c.normal) : c.opening;
     if (!(opening < asked)) {
       return false;
     }
     pushes_ = pushes_ || asked > 0;
-    points_.push_back(make_point(c, asked));
+    state_.points.push_back(make_point(c, asked));
     return true;
   }
 
@@ -192,29 +126,16 @@ private:
     return near;
   }
 
-  static double dot(const Vec<Dim>& a, const Vec<Dim>& b) {
-    double sum = 0;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      sum += a[d] * b[d];
-    }
-    return sum;
-  }
-  static Vec<Dim> normal_at(const ContactTrack<Dim>& t, std::size_t n) {
-    Vec<Dim> v;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      v[d] = t.normal[d][n];
-    }
-    return v;
-  }
-
-  ContactPoint<Dim> make_point(const Candidate<Dim>& from, double asked) {
+  ContactPoint<Dim> make_point(const ContactCandidate<Dim>& from, double asked) {
     const ContactSurface<Dim>&a = *surfaces_[from.side], &b = *surfaces_[1 - from.side];
-    ContactPoint<Dim> p{from.side, from.node, b.corners_of(from.segment), corner_shares<Dim>(from.local), from.normal, asked, 0, 0, 0, 0, {}};
+    ContactPoint<Dim> p{from.side, from.node, b.corners_of(from.segment), corner_shares<Dim>(from.local), from.normal, asked, 0, 0, 0, {}, {}, 0, {}};
     for (std::size_t d = 0; d < Dim; ++d) {
       const int axis = static_cast<int>(d);
-      double w = a.weight * a.inverse_mass(p.node, axis), u = a.weight_n != 0 ? a.weight_n * a.velocity_n[d][p.node] : 0.0;
+      p.gives[d] = a.inverse_mass(p.node, axis);
+      double w = a.weight * p.gives[d], u = a.weight_n != 0 ? a.weight_n * a.velocity_n[d][p.node] : 0.0;
       for (std::size_t c = 0; c < p.corners; ++c) {
-        w += p.share[c] * p.share[c] * b.weight * b.inverse_mass(p.corner[c], axis);
+        p.corner_gives[d][c] = p.share[c] * b.inverse_mass(p.corner[c], axis);
+        w += p.share[c] * b.weight * p.corner_gives[d][c];
         u -= b.weight_n != 0 ? p.share[c] * b.weight_n * b.velocity_n[d][p.corner[c]] : 0.0;
       }
       p.per_impulse += p.normal[d] * p.normal[d] * w;
@@ -224,18 +145,21 @@ private:
     return p;
   }
 
-  void keep_velocities() {
+  void restore_velocities() {
     for (std::size_t s = 0; s < 2; ++s) {
-      for (std::size_t d = 0; d < Dim; ++d) {
-        const double* v = surfaces_[s]->velocity[d];
-        state_.before[s][d].assign(v, v + surfaces_[s]->node_count());
+      for (std::size_t n = 0; n < state_.touched[s].size(); ++n) {
+        for (std::size_t d = 0; d < Dim && state_.touched[s][n] != 0; ++d) {
+          surfaces_[s]->velocity[d][n] = state_.before[s][d][n];
+        }
       }
     }
   }
-  void restore_velocities() {
-    for (std::size_t s = 0; s < 2; ++s) {
+  void touch(std::size_t s, int node) {
+    const auto n = static_cast<std::size_t>(node);
+    if (state_.touched[s][n] == 0) {
+      state_.touched[s][n] = 1;
       for (std::size_t d = 0; d < Dim; ++d) {
-        std::copy(state_.before[s][d].begin(), state_.before[s][d].end(), surfaces_[s]->velocity[d]);
+        state_.before[s][d][n] = surfaces_[s]->velocity[d][node];
       }
     }
   }
@@ -247,7 +171,7 @@ private:
       double worst = 0;
       for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
         worst = 0;
-        for (ContactPoint<Dim>& p : points_) {
+        for (ContactPoint<Dim>& p : state_.points) {
           worst = std::max(worst, relax(p));
         }
         ++report.sweeps;
@@ -257,11 +181,11 @@ private:
         }
       }
       report.violation = dt_ * worst;
-      const std::size_t known = points_.size();
+      const std::size_t known = state_.points.size();
       if (round + 1 < settings_.rounds) {
         list(true, push_out);
       }
-      if (points_.size() == known) {
+      if (state_.points.size() == known) {
         break;
       }
     }
@@ -282,16 +206,15 @@ private:
   }
 
   void push(const ContactPoint<Dim>& p, const Vec<Dim>& impulse) {
-    ContactSurface<Dim>&a = *surfaces_[p.side], &b = *surfaces_[1 - p.side];
-    state_.touched[p.side][static_cast<std::size_t>(p.node)] = 1;
-    for (std::size_t c = 0; c < p.corners; ++c) {
-      state_.touched[1 - p.side][static_cast<std::size_t>(p.corner[c])] = 1;
+    const ContactSurface<Dim>&a = *surfaces_[p.side], &b = *surfaces_[1 - p.side];
+    touch(p.side, p.node);
+    for (const int c : p.corner) {
+      touch(1 - p.side, c);
     }
     for (std::size_t d = 0; d < Dim; ++d) {
-      const int axis = static_cast<int>(d);
-      a.velocity[d][p.node] += impulse[d] * a.inverse_mass(p.node, axis);
+      a.velocity[d][p.node] += impulse[d] * p.gives[d];
       for (std::size_t c = 0; c < p.corners; ++c) {
-        b.velocity[d][p.corner[c]] -= impulse[d] * p.share[c] * b.inverse_mass(p.corner[c], axis);
+        b.velocity[d][p.corner[c]] -= impulse[d] * p.corner_gives[d][c];
       }
     }
   }
@@ -366,7 +289,7 @@ private:
     report.loss = report.friction_loss = report.impulse = 0;
     report.active = 0;
     report.impulse_sum = {0, 0, 0};
-    for (const ContactPoint<Dim>& p : points_) {
+    for (const ContactPoint<Dim>& p : state_.points) {
       report.active += p.impulse > 0 ? 1 : 0;
       report.impulse += p.impulse;
       report.friction_loss -= settings_.friction > 0 ? friction_work(p) : 0.0;
@@ -392,8 +315,6 @@ private:
   double dt_;
   const ContactSettings& settings_;
   ContactState<Dim>& state_;
-  std::vector<ContactPoint<Dim>> points_;
-  std::vector<Candidate<Dim>> candidates_;
   bool pushes_ = false;
 };
 

@@ -122,9 +122,9 @@ private:
   std::vector<int> segment_;
 };
 
-template <int Dim>
-void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, const Buckets<Dim>& buckets, double dt, ContactTrack<Dim>& track) {
-  const Vec<Dim> x = nodes.place(node);
+template <int Dim> void search_foot(const TrackPair<Dim>& pair, int node, const Buckets<Dim>& buckets, ContactTrack<Dim>& track) {
+  const ContactSurface<Dim>& other = pair.other;
+  const Vec<Dim> x = pair.nodes.place(node);
   Foot<Dim> best;
   int segment = -1, nearest = -1;
   double closest = std::numeric_limits<double>::max();
@@ -142,7 +142,7 @@ void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurfac
     if (square > 4 * extent * extent) {
       return;
     }
-    const Foot<Dim> foot = find_foot<Dim>(other, normals, e, x, {0.5, 0.5});
+    const Foot<Dim> foot = find_foot<Dim>(other, e, x, {0.5, 0.5});
     if (foot.found && touches(other, e, foot.local) && std::abs(foot.gap) <= extent && (segment < 0 || std::abs(foot.gap) < std::abs(best.gap))) {
       best = foot;
       segment = e;
@@ -150,7 +150,7 @@ void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurfac
   });
   const auto n = static_cast<std::size_t>(node);
   if (segment >= 0) {
-    note_foot<Dim>(nodes, node, other, segment, best, dt, track);
+    note_foot(pair, node, segment, best, track);
     return;
   }
   const bool was_away = track.status[n] == FootStatus::away;
@@ -163,18 +163,13 @@ void search_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurfac
 
 } // namespace
 
-template <int Dim>
-void search_feet(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, bool all, ContactTrack<Dim>& track) {
-  const Buckets<Dim> buckets(other);
-  for (int node = 0; node < nodes.node_count(); ++node) {
+template <int Dim> void search_feet(const TrackPair<Dim>& pair, bool all, ContactTrack<Dim>& track) {
+  const Buckets<Dim> buckets(pair.other);
+  for (int node = 0; node < pair.nodes.node_count(); ++node) {
     const auto n = static_cast<std::size_t>(node);
-    bool sheet = false;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      sheet = sheet || own[d][n] != 0;
-    }
     const FootStatus status = track.status[n];
-    if (sheet && (status == FootStatus::lost || (all && status == FootStatus::away))) {
-      search_foot<Dim>(nodes, node, other, normals, buckets, dt, track);
+    if (status == FootStatus::lost || (all && status == FootStatus::away && on_sheet(pair.nodes, node))) {
+      search_foot(pair, node, buckets, track);
     }
   }
 }
@@ -189,8 +184,8 @@ template <int Dim> double search_again_after(const ContactSurface<Dim>& other) {
   return 0.05 * smallest;
 }
 
-template void search_feet<2>(const ContactSurface<2>&, const NodeNormals<2>&, const ContactSurface<2>&, const NodeNormals<2>&, double, bool, ContactTrack<2>&);
-template void search_feet<3>(const ContactSurface<3>&, const NodeNormals<3>&, const ContactSurface<3>&, const NodeNormals<3>&, double, bool, ContactTrack<3>&);
+template void search_feet<2>(const TrackPair<2>&, bool, ContactTrack<2>&);
+template void search_feet<3>(const TrackPair<3>&, bool, ContactTrack<3>&);
 template double search_again_after<2>(const ContactSurface<2>&);
 template double search_again_after<3>(const ContactSurface<3>&);
 

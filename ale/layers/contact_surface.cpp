@@ -75,25 +75,29 @@ template <int Dim> Vec<Dim> normal_across(const ContactSurface<Dim>& s, int i, i
 
 } // namespace
 
-template <int Dim> void find_normals(const ContactSurface<Dim>& s, int begin, int end, NodeNormals<Dim>& normals) {
+template <int Dim> std::array<double, Dim> node_normal(const ContactSurface<Dim>& s, int node) {
   constexpr unsigned all = (1U << Dim) - 1;
-  const int n = s.nodes_along(0);
-  for (int j = begin; j < end; ++j) {
-    for (int i = 0; i < n; ++i) {
-      Vec<Dim> v = whole(s, i, j) ? normal_across(s, i, j) : normal_sum(s, i, j);
-      const int node = j * n + i;
-      const unsigned held = s.held == nullptr ? 0 : s.held[node];
-      double square = 0;
-      for (std::size_t d = 0; d < Dim; ++d) {
-        v[d] = held != all && (held >> d & 1) != 0 ? 0.0 : v[d]; // on a plane of symmetry the mirrored half has its say
-        square += v[d] * v[d];
-      }
-      const double scale = square > 0 ? s.outside / std::sqrt(square) : 0.0;
-      for (std::size_t d = 0; d < Dim; ++d) {
-        normals[d][static_cast<std::size_t>(node)] = scale * v[d];
-      }
-    }
+  const int n = s.nodes_along(0), i = node % n, j = node / n;
+  Vec<Dim> v = whole(s, i, j) ? normal_across(s, i, j) : normal_sum(s, i, j);
+  const unsigned held = s.held == nullptr ? 0 : s.held[node];
+  double square = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    v[d] = held != all && (held >> d & 1) != 0 ? 0.0 : v[d]; // on a plane of symmetry the mirrored half has its say
+    square += v[d] * v[d];
   }
+  const double scale = square > 0 ? s.outside / std::sqrt(square) : 0.0;
+  for (double& c : v) {
+    c *= scale;
+  }
+  return v;
+}
+
+template <int Dim> bool on_sheet(const ContactSurface<Dim>& s, int node) {
+  bool any = s.alive == nullptr;
+  if (!any) {
+    for_each_segment_around(s, node % s.nodes_along(0), node / s.nodes_along(0), [&](int segment, int) { any = any || s.there(segment); });
+  }
+  return any;
 }
 
 template <int Dim> void check_surface(const ContactSurface<Dim>& s, const char* name) {
@@ -117,8 +121,10 @@ template <int Dim> void check_surface(const ContactSurface<Dim>& s, const char* 
   }
 }
 
-template void find_normals<2>(const ContactSurface<2>&, int, int, NodeNormals<2>&);
-template void find_normals<3>(const ContactSurface<3>&, int, int, NodeNormals<3>&);
+template std::array<double, 2> node_normal<2>(const ContactSurface<2>&, int);
+template bool on_sheet<2>(const ContactSurface<2>&, int);
+template std::array<double, 3> node_normal<3>(const ContactSurface<3>&, int);
+template bool on_sheet<3>(const ContactSurface<3>&, int);
 template void check_surface<2>(const ContactSurface<2>&, const char*);
 template void check_surface<3>(const ContactSurface<3>&, const char*);
 

@@ -6,8 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
-#include <vector>
 
 namespace ballast {
 
@@ -55,11 +53,11 @@ template <int Dim> struct ContactSurface {
   double inverse_mass(int node, int axis) const { return held != nullptr && (held[node] >> axis & 1) != 0 ? 0.0 : 1 / mass[node]; }
 };
 
-/// Outward unit normals of nodes, by component; zero where no segment is there around the node.
-template <int Dim> using NodeNormals = std::array<std::vector<double>, Dim>;
+/// Outward unit normal of a node, of the segments that are there around it; zero where there is none.
+template <int Dim> std::array<double, Dim> node_normal(const ContactSurface<Dim>& s, int node);
 
-/// Fills the normals of the rows [begin, end) of nodes; `normals` has node_count entries.
-template <int Dim> void find_normals(const ContactSurface<Dim>& s, int begin, int end, NodeNormals<Dim>& normals);
+/// A segment is there around the node: what is left of a sheet without it is debris.
+template <int Dim> bool on_sheet(const ContactSurface<Dim>& s, int node);
 
 /// Shares of the corners at local coordinates, 0 to 1 on the segment.
 template <int Dim> std::array<double, 1 << (Dim - 1)> corner_shares(const std::array<double, 2>& local) {

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double entry_depth = 0.1; ///< of a segment's extent: a node found deeper was there before
 constexpr int longest_walk = 64;    ///< segments
+constexpr double least_slide = 1e-9, least_depth = 1e-9; ///< of a segment: less is round-off
 
 template <int Dim> using Vec = std::array<double, Dim>;
 
@@ -18,77 +19,6 @@ template <int Dim> double dot(const Vec<Dim>& a, const Vec<Dim>& b) {
     sum += a[d] * b[d];
   }
   return sum;
-}
-
-Vec<3> cross(const Vec<3>& a, const Vec<3>& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
-
-/// A field on a segment: f + a f_a + b f_b + a b f_ab.
-template <int Dim> struct Patch {
-  Vec<Dim> f, f_a, f_b, f_ab;
-
-  template <class Fields> Patch(const Fields& fields, const std::array<int, 1 << (Dim - 1)>& corner) {
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const auto at = [&](std::size_t c) { return fields[d][static_cast<std::size_t>(corner[c])]; };
-      f[d] = at(0);
-      f_a[d] = at(1) - at(0);
-      f_b[d] = f_ab[d] = 0;
-      if constexpr (Dim == 3) {
-        f_b[d] = at(2) - at(0);
-        f_ab[d] = at(3) - at(1) - f_b[d];
-      }
-    }
-  }
-  Vec<Dim> value(double a, double b) const {
-    Vec<Dim> v;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      v[d] = f[d] + a * f_a[d] + b * (f_b[d] + a * f_ab[d]);
-    }
-    return v;
-  }
-  Vec<Dim> along_a(double b) const {
-    Vec<Dim> v;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      v[d] = f_a[d] + b * f_ab[d];
-    }
-    return v;
-  }
-  Vec<Dim> along_b(double a) const {
-    Vec<Dim> v;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      v[d] = f_b[d] + a * f_ab[d];
-    }
-    return v;
-  }
-};
-
-/// A vector across a patch with these tangents, not of unit length.
-Vec<3> upright(const Vec<3>& a, const Vec<3>& b) { return cross(a, b); }
-Vec<2> upright(const Vec<2>& a, const Vec<2>&) { return {-a[1], a[0]}; }
-
-template <int Dim> void add(Vec<Dim>& v, double factor, const Vec<Dim>& w) {
-  for (std::size_t d = 0; d < Dim; ++d) {
-    v[d] += factor * w[d];
-  }
-}
-
-/// One Newton step of x = X + g N: changes local and gap by the returned amounts; false past the surface's focus.
-bool newton(const Vec<3>& r, const Vec<3>& a, const Vec<3>& b, const Vec<3>& n, int outside, std::array<double, 3>& step) {
-  const Vec<3> bn = cross(b, n), ab = cross(a, b);
-  const double det = dot<3>(a, bn), size = std::sqrt(dot<3>(a, a) * dot<3>(b, b));
-  if (!(det * outside > 1e-3 * size)) {
-    return false;
-  }
-  step = {dot<3>(r, bn) / det, dot<3>(r, cross(n, a)) / det, dot<3>(r, ab) / det};
-  return true;
-}
-bool newton(const Vec<2>& r, const Vec<2>& a, const Vec<2>&, const Vec<2>& n, int outside, std::array<double, 3>& step) {
-  const double det = cross(a, n);
-  if (!(det * outside > 1e-3 * std::sqrt(dot<2>(a, a)))) {
-    return false;
-  }
-  step = {cross(r, n) / det, 0, cross(a, r) / det};
-  return true;
 }
 
 /// How many segments to walk along an axis: none inside, and past the outer edge none either.
@@ -107,101 +37,11 @@ template <int Dim> void ContactTrack<Dim>::resize(int nodes) {
   gap.resize(n);
   opening.resize(n);
   leaves.resize(n);
+  current.resize(n);
+  moved.resize(n, 1);
   for (std::vector<double>& c : normal) {
     c.resize(n);
   }
-}
-
-template <int Dim>
-Foot<Dim> find_foot(const ContactSurface<Dim>& s, const NodeNormals<Dim>& normals, int segment, const std::array<double, Dim>& point, const std::array<double, 2>& start) {
-  const auto corner = s.corners_of(segment);
-  const Patch<Dim> place(s.position, corner), normal(normals, corner);
-  Foot<Dim> foot;
-  double& a = foot.local[0];
-  double& b = foot.local[1];
-  a = start[0];
-  b = Dim == 3 ? start[1] : 0;
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    const Vec<Dim> n = normal.value(a, b);
-    Vec<Dim> r = point, x_a = place.along_a(b), x_b = place.along_b(a);
-    add<Dim>(r, -1, place.value(a, b));
-    if (iteration == 0) {
-      foot.gap = dot<Dim>(r, n) / dot<Dim>(n, n);
-    }
-    add<Dim>(r, -foot.gap, n);
-    add<Dim>(x_a, foot.gap, normal.along_a(b));
-    add<Dim>(x_b, foot.gap, normal.along_b(a));
-    std::array<double, 3> step;
-    if (!newton(r, x_a, x_b, n, s.outside, step)) {
-      return foot;
-    }
-    a += step[0];
-    b += step[1];
-    foot.gap += step[2];
-    if (!(std::abs(a) < 1e3 && std::abs(b) < 1e3)) {
-      return foot;
-    }
-    if (std::abs(step[0]) + std::abs(step[1]) < 1e-8) { // squared by the step just made
-      foot.found = true;
-      break;
-    }
-  }
-  foot.normal = normal.value(a, b);
-  const double length = std::sqrt(dot<Dim>(foot.normal, foot.normal));
-  for (double& c : foot.normal) {
-    c /= length;
-  }
-  foot.gap *= length;
-  return foot;
-}
-
-template <int Dim> Foot<Dim> orthogonal_foot(const ContactSurface<Dim>& s, int segment, const std::array<double, Dim>& point, const Foot<Dim>& foot) {
-  const Patch<Dim> place(s.position, s.corners_of(segment));
-  double a = foot.local[0], b = foot.local[1];
-  Foot<Dim> out;
-  for (int iteration = 0; iteration < 8 && !out.found; ++iteration) {
-    const Vec<Dim> x_a = place.along_a(b), x_b = place.along_b(a);
-    Vec<Dim> r = point;
-    add<Dim>(r, -1, place.value(a, b));
-    const double aa = dot<Dim>(x_a, x_a), ra = dot<Dim>(r, x_a);
-    if (iteration == 0 && foot.gap * foot.gap > 0.01 * aa) {
-      return foot;
-    }
-    double da = ra / aa, db = 0;
-    if constexpr (Dim == 3) { // Newton's method of r.X_a = r.X_b = 0
-      const double bb = dot<3>(x_b, x_b), rb = dot<3>(r, x_b), ab = dot<3>(x_a, x_b) - dot<3>(r, place.f_ab), det = aa * bb - ab * ab;
-      if (!(det > 1e-6 * aa * bb)) {
-        return foot;
-      }
-      da = (ra * bb - rb * ab) / det;
-      db = (rb * aa - ra * ab) / det;
-    }
-    a += da;
-    b += db;
-    out.found = std::abs(da) + std::abs(db) < 1e-8;
-  }
-  Vec<Dim> r = point, n = upright(place.along_a(b), place.along_b(a));
-  add<Dim>(r, -1, place.value(a, b));
-  const double scale = s.outside / std::sqrt(dot<Dim>(n, n));
-  for (double& c : n) {
-    c *= scale;
-  }
-  out.local = {a, b};
-  out.gap = dot<Dim>(r, n);
-  out.normal = n;
-  const bool near = std::abs(a - foot.local[0]) + std::abs(b - foot.local[1]) < 0.1;
-  return out.found && near ? out : foot;
-}
-
-template <int Dim> double segment_extent(const ContactSurface<Dim>& s, int segment) {
-  const auto corner = s.corners_of(segment);
-  double square = 0;
-  for (std::size_t c = 0; c < corner.size() / 2; ++c) {
-    Vec<Dim> d = s.place(corner[corner.size() - 1 - c]);
-    add<Dim>(d, -1, s.place(corner[c]));
-    square = std::max(square, dot<Dim>(d, d));
-  }
-  return 0.5 * std::sqrt(square);
 }
 
 template <int Dim>
@@ -221,26 +61,35 @@ std::array<double, Dim> relative_velocity(const ContactSurface<Dim>& nodes, int 
 
 namespace {
 
-/// Bits of the sides of its segment that a foot leaves while it moves by `way`, for a node near enough to touch meanwhile.
-template <int Dim>
-unsigned char sides_left(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local, double gap, const Vec<Dim>& way) {
+/// Bits of the sides of its segment that a foot can come to within `reach`.
+template <int Dim> unsigned char sides_near(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local, double reach) {
   unsigned bits = 0;
-  if (gap > 0 && gap * gap > dot<Dim>(way, way)) {
-    return 0;
-  }
-  const Patch<Dim> place(s.position, s.corners_of(segment));
+  const Patch<Dim> place = places(s, segment);
   for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
     const Vec<Dim> along = axis == 0 ? place.along_a(local[1]) : place.along_b(local[0]);
-    const double by = dot<Dim>(way, along) / dot<Dim>(along, along);
-    bits |= (by < 0 && local[axis] + by < 0 ? 1U : by > 0 && local[axis] + by > 1 ? 2U : 0U) << 2 * axis;
+    const double by = reach / std::sqrt(dot<Dim>(along, along));
+    bits |= ((by > local[axis] ? 1U : 0U) | (by > 1 - local[axis] ? 2U : 0U)) << 2 * axis;
   }
   return static_cast<unsigned char>(bits);
 }
 
+/// A foot leaves its segment while it moves by `way`.
+template <int Dim> bool goes_off(const ContactSurface<Dim>& s, int segment, const std::array<double, 2>& local, const Vec<Dim>& way) {
+  const Patch<Dim> place = places(s, segment);
+  bool off = false;
+  for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
+    const Vec<Dim> along = axis == 0 ? place.along_a(local[1]) : place.along_b(local[0]);
+    const double by = dot<Dim>(way, along) / dot<Dim>(along, along);
+    off = off || (by < -least_slide && local[axis] + by < 0) || (by > least_slide && local[axis] + by > 1);
+  }
+  return off;
+}
+
 } // namespace
 
-template <int Dim>
-void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& found, double dt, ContactTrack<Dim>& track) {
+template <int Dim> void note_foot(const TrackPair<Dim>& pair, int node, int segment, const Foot<Dim>& found, ContactTrack<Dim>& track) {
+  const ContactSurface<Dim>&nodes = pair.nodes, &other = pair.other;
+  const double dt = pair.dt;
   const Foot<Dim> foot = orthogonal_foot<Dim>(other, segment, nodes.place(node), found);
   const auto n = static_cast<std::size_t>(node);
   track.segment[n] = segment;
@@ -263,20 +112,19 @@ void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<
     track.normal[d][n] = foot.normal[d];
     u[d] *= dt;
   }
-  track.leaves[n] = sides_left<Dim>(other, segment, track.local[n], foot.gap, u);
+  track.current[n] = 1;
+  const double reach = std::sqrt(dot<Dim>(u, u));
+  track.leaves[n] = reach > 0 && foot.gap <= reach ? sides_near<Dim>(other, segment, track.local[n], reach) : static_cast<unsigned char>(0);
 }
 
-namespace {
-
-/// Walks from the last foot. Past an edge: the status says so and the last segment is kept.
-template <int Dim>
-void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, ContactTrack<Dim>& track) {
+template <int Dim> void track_node(const TrackPair<Dim>& pair, int node, ContactTrack<Dim>& track) {
+  const ContactSurface<Dim>& other = pair.other;
   const auto n = static_cast<std::size_t>(node);
-  const Vec<Dim> x = nodes.place(node);
+  const Vec<Dim> x = pair.nodes.place(node);
   int segment = track.segment[n];
   std::array<double, 2> start = track.local[n];
   for (int step = 0; step < longest_walk; ++step) {
-    const Foot<Dim> foot = find_foot<Dim>(other, normals, segment, x, start);
+    const Foot<Dim> foot = find_foot<Dim>(other, segment, x, start);
     if (!foot.found) {
       break;
     }
@@ -284,7 +132,7 @@ void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface
     const int di = walk(foot.local[0], i, other.segments[0]), dj = Dim == 3 ? walk(foot.local[1], j, other.segments[1]) : 0;
     if (di == 0 && dj == 0) {
       if (touches(other, segment, foot.local) && other.there(segment)) {
-        note_foot<Dim>(nodes, node, other, segment, foot, dt, track);
+        note_foot(pair, node, segment, foot, track);
       } else {
         track.status[n] = FootStatus::beside;
         track.segment[n] = segment;
@@ -298,34 +146,89 @@ void track_node(const ContactSurface<Dim>& nodes, int node, const ContactSurface
   track.status[n] = FootStatus::lost;
 }
 
+namespace {
+
+enum class Outlook { clear, touches, moves };
+
+/// With the last foot's shares and normal: gap and rate; what a node in front does in this step.
+template <int Dim> Outlook look_ahead(const TrackPair<Dim>& pair, int node, ContactTrack<Dim>& track) {
+  const auto n = static_cast<std::size_t>(node);
+  const int segment = track.segment[n];
+  const std::array<double, 2> local = track.local[n];
+  const ContactSurface<Dim>& other = pair.other;
+  const Vec<Dim> u = relative_velocity<Dim>(pair.nodes, node, other, segment, local);
+  const double slid = pair.dt * pair.dt * dot<Dim>(u, u);
+  track.current[n] = 0;
+  track.leaves[n] = 0;
+  track.opening[n] = 0;
+  if (!other.there(segment)) {
+    return Outlook::moves;
+  }
+  if (slid == 0) {
+    return Outlook::clear;
+  }
+  track.moved[n] = 1;
+  const auto corner = other.corners_of(segment);
+  const auto share = corner_shares<Dim>(local);
+  double gap = 0, opening = 0, size = 0;
+  Vec<Dim> way; // from the old foot to where the node will be
+  for (std::size_t d = 0; d < Dim; ++d) {
+    way[d] = pair.nodes.position[d][node];
+    for (std::size_t c = 0; c < corner.size(); ++c) {
+      way[d] -= share[c] * other.position[d][corner[c]];
+    }
+    const double side = other.position[d][corner[1]] - other.position[d][corner[0]];
+    gap += track.normal[d][n] * way[d];
+    opening += track.normal[d][n] * u[d];
+    size += side * side;
+    way[d] += pair.dt * u[d];
+  }
+  track.gap[n] = gap;
+  track.opening[n] = opening;
+  const double next = gap + pair.dt * opening;
+  double along = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    way[d] -= next * track.normal[d][n];
+    along += way[d] * way[d];
+  }
+  const bool inside = next < 0 && next * next > least_depth * least_depth * size;
+  if (!(slid < 1e-4 * size && along < 1e-3 * size) || goes_off<Dim>(other, segment, local, way)) {
+    return Outlook::moves;
+  }
+  return inside ? Outlook::touches : Outlook::clear;
+}
+
 } // namespace
 
-template <int Dim>
-void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, std::array<int, 2> range,
-                 ContactTrack<Dim>& track) {
+template <int Dim> void track_nodes(const TrackPair<Dim>& pair, std::array<int, 2> range, bool refresh, ContactTrack<Dim>& track) {
   for (int node = range[0]; node < range[1]; ++node) {
     const auto n = static_cast<std::size_t>(node);
-    bool sheet = false; // a segment is there around the node: debris touches nothing
-    for (std::size_t d = 0; d < Dim; ++d) {
-      sheet = sheet || own[d][n] != 0;
-    }
     FootStatus& status = track.status[n];
-    if (!sheet) {
+    if (refresh && !on_sheet(pair.nodes, node)) {
       status = FootStatus::away;
-    } else if (status != FootStatus::away && status != FootStatus::lost) {
-      track_node<Dim>(nodes, node, other, normals, dt, track);
+    }
+    if (status == FootStatus::away || status == FootStatus::lost || (status == FootStatus::behind && !refresh)) {
+      continue;
+    }
+    Outlook outlook = status == FootStatus::front ? look_ahead(pair, node, track) : Outlook::moves;
+    if (refresh && track.moved[n] != 0) {
+      outlook = Outlook::moves;
+    }
+    if (outlook == Outlook::moves) {
+      track.moved[n] = 0;
+      track_node(pair, node, track);
+    } else if (outlook == Outlook::touches) {
+      note_foot(pair, node, track.segment[n], Foot<Dim>{track.local[n], track.gap[n], track.normal_at(n), true}, track);
     }
   }
 }
 
 #define BALLAST_INSTANTIATE(D)                                                                                                   \
   template struct ContactTrack<D>;                                                                                               \
-  template Foot<D> find_foot<D>(const ContactSurface<D>&, const NodeNormals<D>&, int, const std::array<double, D>&, const std::array<double, 2>&); \
-  template Foot<D> orthogonal_foot<D>(const ContactSurface<D>&, int, const std::array<double, D>&, const Foot<D>&);             \
-  template double segment_extent<D>(const ContactSurface<D>&, int);                                                              \
-  template void track_nodes<D>(const ContactSurface<D>&, const NodeNormals<D>&, const ContactSurface<D>&, const NodeNormals<D>&, double, std::array<int, 2>, ContactTrack<D>&); \
+  template void track_nodes<D>(const TrackPair<D>&, std::array<int, 2>, bool, ContactTrack<D>&);                                 \
+  template void track_node<D>(const TrackPair<D>&, int, ContactTrack<D>&);                                                       \
   template std::array<double, D> relative_velocity<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const std::array<double, 2>&); \
-  template void note_foot<D>(const ContactSurface<D>&, int, const ContactSurface<D>&, int, const Foot<D>&, double, ContactTrack<D>&);
+  template void note_foot<D>(const TrackPair<D>&, int, int, const Foot<D>&, ContactTrack<D>&);
 BALLAST_INSTANTIATE(2)
 BALLAST_INSTANTIATE(3)
 #undef BALLAST_INSTANTIATE

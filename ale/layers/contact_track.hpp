@@ -5,9 +5,12 @@
 // patch or its continuation: the gap changes at the rate n.(u_s - sum phi_k u_k) and the force along n turns nothing.
 // g < 0: the node is inside, however deep. Newton's method from the last foot, then a walk from segment to segment; a node
 // that has lost its foot is looked for among all segments (ale/layers/contact_search).
+//
+// Most nodes neither come closer nor slide far in a step: between full updates (`refresh`) the last foot's shares and normal serve
+// to see that. Nodes that would come inside get the orthogonal foot anew, those that leave their segment or go far the walk.
 #pragma once
 
-#include "ale/layers/contact_surface.hpp"
+#include "ale/layers/contact_foot.hpp"
 
 #include <vector>
 
@@ -21,7 +24,7 @@ enum class FootStatus : char {
   front   ///< has its foot on the surface and its side is known
 };
 
-/// Where the nodes of one surface have their feet on another. The first three carry over from step to step, and into a checkpoint.
+/// Where the nodes of one surface have their feet on another. Status, segment, local and normal carry over from step to step.
 template <int Dim> struct ContactTrack {
   std::vector<FootStatus> status;
   std::vector<int> segment;
@@ -29,26 +32,20 @@ template <int Dim> struct ContactTrack {
 
   std::vector<double> gap;     ///< m, at the step's start
   std::vector<double> opening; ///< m/s: the rate of the gap over the step
-  std::vector<unsigned char> leaves; ///< where it may touch and its foot leaves the segment in the step: bits low and high of axis 0, then of axis 1
-  NodeNormals<Dim> normal;     ///< at the foot
+  std::vector<unsigned char> leaves; ///< where it may touch: sides of its segment within the step's reach, bits low and high of axis 0, then of axis 1
+  std::array<std::vector<double>, Dim> normal; ///< at the foot
+  std::vector<char> current;   ///< the foot is that of this step
+  std::vector<char> moved;     ///< relative to its foot, since that was found
 
   void resize(int nodes);
+  std::array<double, Dim> normal_at(std::size_t node) const {
+    std::array<double, Dim> v;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      v[d] = normal[d][node];
+    }
+    return v;
+  }
 };
-
-/// A foot: shares of the corners follow from `local`.
-template <int Dim> struct Foot {
-  std::array<double, 2> local = {0.5, 0.5};
-  double gap = 0;
-  std::array<double, Dim> normal{};
-  bool found = false; ///< on the bilinear patch or its continuation
-};
-
-/// Foot along the interpolated normals, starting from `start`.
-template <int Dim>
-Foot<Dim> find_foot(const ContactSurface<Dim>& s, const NodeNormals<Dim>& normals, int segment, const std::array<double, Dim>& point, const std::array<double, 2>& start);
-
-/// Orthogonal foot near `foot`; `foot` itself where it is too far from the patch for that to matter.
-template <int Dim> Foot<Dim> orthogonal_foot(const ContactSurface<Dim>& s, int segment, const std::array<double, Dim>& point, const Foot<Dim>& foot);
 
 /// The foot lies on its segment, or so little past an outer edge that the segment's continuation serves: sheets whose edges
 /// meet keep touching there while they bend.
@@ -62,13 +59,17 @@ template <int Dim> bool touches(const ContactSurface<Dim>& s, int segment, const
   return in;
 }
 
-/// Half the longest diagonal of a segment, m.
-template <int Dim> double segment_extent(const ContactSurface<Dim>& s, int segment);
+/// Two surfaces as seen by the nodes of the first.
+template <int Dim> struct TrackPair {
+  const ContactSurface<Dim>&nodes, &other;
+  double dt;
+};
 
-/// Follows the feet of nodes [begin, end) of `nodes` on `other`; `own` and `normals` are the normals of both.
-template <int Dim>
-void track_nodes(const ContactSurface<Dim>& nodes, const NodeNormals<Dim>& own, const ContactSurface<Dim>& other, const NodeNormals<Dim>& normals, double dt, std::array<int, 2> range,
-                 ContactTrack<Dim>& track);
+/// Follows the feet of nodes [begin, end). `refresh`: all of them.
+template <int Dim> void track_nodes(const TrackPair<Dim>& pair, std::array<int, 2> range, bool refresh, ContactTrack<Dim>& track);
+
+/// Walks from a node's last foot to that of this step. Past an edge: the status says so and the last segment is kept.
+template <int Dim> void track_node(const TrackPair<Dim>& pair, int node, ContactTrack<Dim>& track);
 
 /// Velocity over the step of a node relative to its foot, m/s.
 template <int Dim>
@@ -77,7 +78,6 @@ std::array<double, Dim> relative_velocity(const ContactSurface<Dim>& nodes, int 
 /// Notes a foot that find_foot gave: side, gap and rate of the orthogonal one. A node that comes in past an edge or a hole, or
 /// that was looked for, counts as behind if it is deeper than what it can have gone since it was outside: two steps' approach, or a
 /// tenth of the segment; past an edge it only begins to touch outside.
-template <int Dim>
-void note_foot(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const Foot<Dim>& foot, double dt, ContactTrack<Dim>& track);
+template <int Dim> void note_foot(const TrackPair<Dim>& pair, int node, int segment, const Foot<Dim>& foot, ContactTrack<Dim>& track);
 
 } // namespace ballast

@@ -95,10 +95,10 @@ SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, Laye
       }
     });
   };
-  over_rows([&](std::size_t p, std::size_t s, int j) { find_normals<Dim>(surfaces[p][s], j, j + 1, state.pairs[p].normals[s]); });
+  const bool refresh = state.steps++ % settings.refresh == 0;
   over_rows([&](std::size_t p, std::size_t s, int j) {
     ContactState<Dim>& c = state.pairs[p];
-    track_nodes<Dim>(surfaces[p][s], c.normals[s], surfaces[p][1 - s], c.normals[1 - s], dt, {j * row_nodes, (j + 1) * row_nodes}, c.tracks[s]);
+    track_nodes(c.seen_from(s, {&surfaces[p][0], &surfaces[p][1]}, dt), {j * row_nodes, (j + 1) * row_nodes}, refresh, c.tracks[s]);
   });
   std::vector<ContactReport> reports(count);
   parallel_ranges(pool, static_cast<int>(count), [&](int begin, int end, int) {

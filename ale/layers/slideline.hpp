@@ -18,6 +18,7 @@ template <int Dim> using LayerVelocity = std::type_identity_t<std::array<std::ve
 template <int Dim> struct SlidelineState {
   std::vector<ContactState<Dim>> pairs; ///< from the lowest
   std::vector<unsigned char> held;      ///< by node of a plane
+  long steps = 0;                       ///< counts to the next refresh
 };
 
 struct SlidelineReport {

@@ -73,15 +73,10 @@ TEST(ContactPath, CapFlattensOnPlane) {
 
 /// The segment with the nearest foot, looked for among all.
 template <int Dim> int nearest_segment(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other) {
-  NodeNormals<Dim> normals;
-  for (auto& c : normals) {
-    c.resize(static_cast<std::size_t>(other.node_count()));
-  }
-  find_normals<Dim>(other, 0, other.rows(), normals);
   int best = -1;
   double gap = 1;
   for (int e = 0; e < other.segment_count(); ++e) {
-    const Foot<Dim> foot = find_foot<Dim>(other, normals, e, nodes.place(node), {0.5, 0.5});
+    const Foot<Dim> foot = find_foot<Dim>(other, e, nodes.place(node), {0.5, 0.5});
     const auto in = [](double a) { return a >= -1e-9 && a <= 1 + 1e-9; };
     if (foot.found && in(foot.local[0]) && (Dim == 2 || in(foot.local[1])) && std::abs(foot.gap) < gap) {
       gap = std::abs(foot.gap);
