@@ -256,7 +256,7 @@ TEST(Contact, GivesBackNoMoreThanItTook) {
     b.force = {zero.data(), press.data()};
     const ContactReport report = resolve_contact(a, b, dt, t.settings, t.state);
     taken += report.loss;
-    EXPECT_GE(taken, -1e-18);
+    EXPECT_GE(taken, -1e-13); // a push of one step would take about 1e-3 J
     EXPECT_NEAR(report.deepest, 2e-5, 1e-12);
     for (Sheet<2>* s : {&t.low, &t.high}) {
       s->set_velocity({0, s->momentum()[1] / Two<2>::mass_of(*s)});
