@@ -97,7 +97,7 @@ template <int Dim> void note_foot(const TrackPair<Dim>& pair, int node, int segm
   track.gap[n] = foot.gap;
   Vec<Dim> u = relative_velocity<Dim>(nodes, node, other, segment, track.local[n]);
   FootStatus& status = track.status[n];
-  const auto past = [](double a) { return a < 0 || a > 1; };
+  const auto past = [](double a) { return a < -1e-6 || a > 1 + 1e-6; };
   const bool tracked = status == FootStatus::front || status == FootStatus::behind, beside = status == FootStatus::beside;
   if (tracked) {
     status = foot.gap >= 0 ? FootStatus::front : status;

@@ -236,6 +236,35 @@ TEST(Contact, PushesPenetrationOutWithoutGain) {
   EXPECT_LT(deepest, 2e-7);
 }
 
+// Two rigid sheets inside each other are pressed from rest: contact has taken no energy yet, so it gives none, and keeps them
+// where they are.
+TEST(Contact, GivesBackNoMoreThanItTook) {
+  Two<2> t = flying<2>(10, 10, 0);
+  t.high = flat_sheet<2>(10, 0, side, -2e-5, -1, 2e-3);
+  t.low.set_velocity({0, 0});
+  std::vector<double> none(t.low.mass.size(), 0.0), press, zero(t.high.mass.size(), 0.0);
+  for (const double m : t.high.mass) {
+    press.push_back(-1e7 * m);
+  }
+  double taken = 0;
+  for (int k = 0; k < 100; ++k) {
+    for (double& v : t.high.v[1]) {
+      v -= 1e7 * dt;
+    }
+    ContactSurface<2> a = t.low.view(), b = t.high.view();
+    a.force = {none.data(), none.data()};
+    b.force = {zero.data(), press.data()};
+    const ContactReport report = resolve_contact(a, b, dt, t.settings, t.state);
+    taken += report.loss;
+    EXPECT_GE(taken, -1e-13); // a push of one step would take about 1e-3 J
+    EXPECT_NEAR(report.deepest, 2e-5, 1e-12);
+    for (Sheet<2>* s : {&t.low, &t.high}) {
+      s->set_velocity({0, s->momentum()[1] / Two<2>::mass_of(*s)});
+      s->move(dt);
+    }
+  }
+}
+
 // Axes r, z: masses of rings, impulses of rings. Annular sheets with one speed each end with the common one, like plane ones.
 TEST(Contact, RingsKeepAxialMomentum) {
   Two<2> t;

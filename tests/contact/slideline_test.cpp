@@ -1,5 +1,5 @@
 // Slidelines of a stack: layers squeezed, sheared and thrown about between end plates; rest; threads; holes; edges.
-// The layers' stiffness is the test's own: springs through the layer that stiffen as ln(h/h0) h0/h, linear ones along and across.
+// The layers' stiffness is the test's own: springs through and along that stiffen as ln(h/h0) h0/h, and shear, stiff enough that no quad turns over (a fold would need self-contact).
 #include "ale/layers/slideline.hpp"
 
 #include "sheets.hpp"
@@ -68,10 +68,10 @@ template <int Dim> void pull_springs(LayerStack<Dim>& s) {
       for (int i = 0; i <= n; ++i) {
         const std::size_t a = s.node(i, j, p);
         if (i < n) {
-          tie(a, s.node(i + 1, j, p), 0, spacing, 0.5 * h * depth, 0.05);
+          tie(a, s.node(i + 1, j, p), 0, spacing, 0.5 * h * depth, 0.3);
         }
         if (Dim == 3 && j < n) {
-          tie(a, s.node(i, j + 1, p), 1, spacing, 0.5 * h * depth, 0.05);
+          tie(a, s.node(i, j + 1, p), 1, spacing, 0.5 * h * depth, 0.3);
         }
         if (p % 2 == 0) {
           tie(a, s.node(i, j, p + 1), Dim - 1, h, s.mass[a] / (0.5 * density * h), 0.2);
@@ -145,9 +145,9 @@ TEST(Slidelines, SqueezedStacksKeepTheirLayersApart) {
   for (const int layers : {2, 5, 10}) {
     expect_squeezes<2>(12, layers, 0.01);
   }
-  expect_squeezes<2>(12, 29, 0.05);
-  expect_squeezes<3>(6, 2, 0.01);
-  expect_squeezes<3>(6, 5, 0.01);
+  expect_squeezes<2>(8, 29, 0.05);
+  expect_squeezes<3>(5, 2, 0.01);
+  expect_squeezes<3>(5, 5, 0.01);
 }
 
 TEST(Slidelines, SameBitsForAnyThreads) {
