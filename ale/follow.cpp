@@ -11,8 +11,13 @@ namespace ballast {
 
 namespace {
 
-bool mirrored_below(const BoundarySet& boundary, std::size_t axis) {
-  return boundary.at(static_cast<int>(axis), 0).kind == BoundaryKind::symmetry;
+template <int Dim> bool mirrored_below(const Block<Dim>& b, std::size_t axis) {
+  return b.boundary.at(static_cast<int>(axis), 0).kind == BoundaryKind::symmetry;
+}
+
+/// Where the mesh stays along an axis while it stretches: its lower side's plane of symmetry, m.
+template <int Dim> double mirror_of(const Block<Dim>& b, std::size_t axis) {
+  return mirrored_below(b, axis) ? b.position[axis].row(b.grid.node_row(0, 0))[0] : 0.0;
 }
 
 } // namespace
@@ -20,6 +25,10 @@ bool mirrored_below(const BoundarySet& boundary, std::size_t axis) {
 template <int Dim> Bulk bulk_of(const Block<Dim>& b, const std::vector<int>& materials) {
   const Grid& g = b.grid;
   Bulk sum;
+  std::array<double, 3> mirror = {0, 0, 0};
+  for (std::size_t d = 0; d < Dim; ++d) {
+    mirror[d] = mirror_of(b, d);
+  }
   for (int k = 0; k < g.cells[2]; ++k) {
     for (int j = 0; j < g.cells[1]; ++j) {
       const int r = g.cell_row(j, k);
@@ -41,8 +50,8 @@ template <int Dim> Bulk bulk_of(const Block<Dim>& b, const std::vector<int>& mat
               const double x = b.position[d].row(nodes)[n], v = velocity_of(b, slot.slides, d, nodes, n);
               sum.centre[d] += share * x;
               sum.velocity[d] += share * v;
-              sum.spread[d] += share * x * x;
-              sum.spread_rate[d] += 2 * share * x * v;
+              sum.spread[d] += share * (x - mirror[d]) * (x - mirror[d]);
+              sum.spread_rate[d] += 2 * share * (x - mirror[d]) * v;
             }
           }
         }
@@ -53,7 +62,7 @@ template <int Dim> Bulk bulk_of(const Block<Dim>& b, const std::vector<int>& mat
     for (auto* s : {&sum.centre, &sum.velocity, &sum.spread, &sum.spread_rate}) {
       (*s)[d] /= sum.mass;
     }
-    if (!mirrored_below(b.boundary, d)) {
+    if (!mirrored_below(b, d)) {
       sum.spread[d] -= sum.centre[d] * sum.centre[d];
       sum.spread_rate[d] -= 2 * sum.centre[d] * sum.velocity[d];
     }
@@ -78,7 +87,7 @@ template <int Dim> void follow_target(Block<Dim>& b, ThreadPool& pool) {
     const bool stretches = motion.stretches[d] && motion.start.spread[d] > 0;
     const double scale = stretches ? std::sqrt(now.spread[d] / motion.start.spread[d]) : 1.0;
     const double rate = stretches && now.spread[d] > 0 ? 0.5 * now.spread_rate[d] / now.spread[d] : 0.0;
-    const double from = motion.axes[d] ? motion.start.centre[d] : 0.0, centre = motion.axes[d] ? now.centre[d] : 0.0;
+    const double from = motion.axes[d] ? motion.start.centre[d] : mirror_of(b, d), centre = motion.axes[d] ? now.centre[d] : from;
     const auto& home = b.home[d].data();
     auto& to = b.target[d].data();
     for (std::size_t i = 0; i < to.size(); ++i) {

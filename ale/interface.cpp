@@ -84,6 +84,25 @@ template <int Dim> CellLayers layers_of(const Block<Dim>& b, int r, int i) {
   return c;
 }
 
+/// From a cell at a side of axis `a` to the next cell, m: half of that from beyond the side, where a symmetry plane or a wall has
+/// the cell's mirror image and any other side a cell as far away.
+template <int Dim> static Eigen::Vector3d step_at_side(const Block<Dim>& b, int a, const std::array<int, 3>& cell) {
+  const auto ua = static_cast<std::size_t>(a);
+  const int side = cell[ua] == 0 ? 0 : 1, sign = side == 0 ? 1 : -1;
+  std::array<int, 3> inside = cell, edge = cell;
+  inside[ua] += sign;
+  edge[ua] += side;
+  const Eigen::Vector3d here = centre(b, cell), step = sign * (centre(b, inside) - here);
+  const int d = b.boundary.fixes_normal_velocity(a, side) ? b.boundary.normal_of(a, side) : -1;
+  if (d < 0) {
+    return step;
+  }
+  const double plane = b.position[static_cast<std::size_t>(d)].row(b.grid.node_row(edge[1], edge[2]))[edge[0]];
+  Eigen::Vector3d beyond = Eigen::Vector3d::Zero(); // from the cell, outwards
+  beyond[d] = 2 * (plane - here[d]);
+  return 0.5 * (step - sign * beyond);
+}
+
 template <int Dim>
 Eigen::Vector3d interface_normal(const Block<Dim>& b, const CellLayers& layers, const std::array<int, 3>& cell) {
   const Grid& g = b.grid;
@@ -102,8 +121,8 @@ Eigen::Vector3d interface_normal(const Block<Dim>& b, const CellLayers& layers, 
     std::array<int, 3> below = cell, above = cell;
     below[ua] = at[ua][0];
     above[ua] = at[ua][2];
-    const bool at_side = above[ua] - below[ua] == 1; // beyond it the mirror image, of the same fraction
-    dx.row(a) = (at_side ? 1 : 0.5) * (centre(b, above) - centre(b, below));
+    const bool at_side = above[ua] - below[ua] == 1; // beyond it is a cell of the same fraction
+    dx.row(a) = at_side ? step_at_side(b, a, cell) : Eigen::Vector3d(0.5 * (centre(b, above) - centre(b, below)));
   }
   const Eigen::Matrix3d to_space = dx.inverse();
   const double size = dx.topLeftCorner<Dim, Dim>().squaredNorm();

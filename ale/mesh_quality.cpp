@@ -127,6 +127,37 @@ double mesh_quality(const Grid& g, const std::array<RowField, Dim>& mesh, const 
   return *std::min_element(least.begin(), least.end());
 }
 
+template <int Dim>
+double largest_stray(const Grid& g, const std::array<RowField, Dim>& mesh, const std::array<RowField, Dim>& reference, ThreadPool& pool) {
+  std::vector<double> largest(static_cast<std::size_t>(g.slabs()) + 1, 0.0);
+  parallel_ranges(pool, g.slabs() + 1, [&](int begin, int end, int) {
+    for (int plane = begin; plane < end; ++plane) {
+      double& most = largest[static_cast<std::size_t>(plane)];
+      for (int q = 0; q < (Dim == 3 ? g.cells[1] + 1 : 1); ++q) {
+        const int index[3] = {0, Dim == 3 ? q : plane, Dim == 3 ? plane : 0};
+        const int r = g.node_row(index[1], index[2]);
+        for (int a = 0; a < Dim; ++a) { // to the next node, or at the end from the one before
+          const int step = a > 0 && index[a] == g.cells[static_cast<std::size_t>(a)] ? -1 : 1;
+          const int next = a == 0 ? r : r + step * g.node_row_stride(a);
+          for (int i = 0; i <= g.cells[0]; ++i) {
+            const int ni = a > 0 ? i : i < g.cells[0] ? i + 1 : i - 1;
+            double along = 0, square = 0;
+            for (std::size_t d = 0; d < Dim; ++d) {
+              const double edge = reference[d].row(next)[ni] - reference[d].row(r)[i];
+              along += edge * (mesh[d].row(r)[i] - reference[d].row(r)[i]);
+              square += edge * edge;
+            }
+            most = square > 0 ? std::max(most, std::abs(along) / square) : most;
+          }
+        }
+      }
+    }
+  });
+  return *std::max_element(largest.begin(), largest.end());
+}
+
+template double largest_stray<2>(const Grid&, const std::array<RowField, 2>&, const std::array<RowField, 2>&, ThreadPool&);
+template double largest_stray<3>(const Grid&, const std::array<RowField, 3>&, const std::array<RowField, 3>&, ThreadPool&);
 template double mesh_quality<2>(const Grid&, const std::array<RowField, 2>&, const std::array<RowField, 2>&, ThreadPool&);
 template double mesh_quality<3>(const Grid&, const std::array<RowField, 3>&, const std::array<RowField, 3>&, ThreadPool&);
 

@@ -21,4 +21,8 @@ void row_quality(const Grid& grid, const std::array<RowField, 3>& mesh, const st
 template <int Dim>
 double mesh_quality(const Grid& grid, const std::array<RowField, Dim>& mesh, const std::array<RowField, Dim>& reference, ThreadPool& pool);
 
+/// How far the farthest node is from where the reference mesh has it, in lengths of that mesh's cells along the way.
+template <int Dim>
+double largest_stray(const Grid& grid, const std::array<RowField, Dim>& mesh, const std::array<RowField, Dim>& reference, ThreadPool& pool);
+
 } // namespace ballast

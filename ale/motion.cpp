@@ -6,6 +6,8 @@
 
 namespace ballast {
 
+constexpr double farthest_stray = 0.5; // of a cell: a mesh that only drifts keeps its quality, but must not leave its place
+
 template <int Dim> void start_motion(Block<Dim>& b) {
   if (!b.motion.moves_target()) {
     return;
@@ -23,7 +25,8 @@ template <int Dim> bool remap_due(const Block<Dim>& b, long step, ThreadPool& po
     return false;
   }
   if (b.motion.remap_quality > 0) { // the target still is where the last remap brought the mesh
-    return mesh_quality<Dim>(b.grid, b.position, b.target, pool) < b.motion.remap_quality;
+    const bool strayed = b.motion.policy == MotionPolicy::eulerian && largest_stray<Dim>(b.grid, b.position, b.target, pool) > farthest_stray;
+    return strayed || mesh_quality<Dim>(b.grid, b.position, b.target, pool) < b.motion.remap_quality;
   }
   return (step + 1) % b.motion.remap_every == 0;
 }

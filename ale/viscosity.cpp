@@ -130,6 +130,10 @@ struct ViscosityCoefficients {
   double quadratic, linear;
 };
 
+/// Of the sound speed: below it the linear term fades with the jump, else the sign of the round-off of what only moves would set
+/// the step.
+constexpr double faint = 1e-7;
+
 /// q of one axis of one row, and the step it allows, folded into `dt`.
 void viscosity_row(Span cells,
                    const ViscosityCoefficients& c,
@@ -151,7 +155,8 @@ void viscosity_row(Span cells,
     // gas (p = 0) has none either, but no sound in it: there the quadratic term must act.
     const bool stiff = modulus[i] > 0 || (density[i] > 0 && !(sound > 0));
     const double jump = e < 0 && stiff ? -e * length[i] * (1 - limiter(e, below[i], above[i])) : 0.0;
-    const double a = quadratic * jump, lin = linear * sound;
+    const double least = faint * sound + 1e-300, share = jump < least ? jump / least : 1.0;
+    const double a = quadratic * jump, lin = linear * sound * share;
     const double speed = a + std::sqrt(a * a + lin * lin);
     const double active = jump > 0 ? speed : 0.0;
     viscosity[i] = density[i] * jump * active;
@@ -229,9 +234,10 @@ template <int Dim> void limit_row(Block<Dim>& b, const Numerics& n, int j, int k
   const int i = b.row_least[static_cast<std::size_t>(r)];
   const double dt = n.cfl * b.stable_step.row(r)[i];
   if (dt < limit.dt) {
-    bool viscous = false;
-    for (const RowField& q_axis : b.viscosity) {
-      viscous = viscous || q_axis.row(r)[i] > 0;
+    const double sound = b.wave_speed.row(r)[i];
+    bool viscous = true; // less than what sound alone allows
+    for (const RowField& length : b.length) {
+      viscous = viscous && b.stable_step.row(r)[i] * sound < (1 - 1e-6) * length.row(r)[i];
     }
     limit = {dt, 0, {i, j, k}, b.owner_row(r)[i], viscous ? DtCause::viscosity : DtCause::sound};
   }

@@ -16,8 +16,9 @@ namespace ballast {
 struct JohnsonCookFailure {
   double D1 = 0, D2 = 0, D3 = 0, D4 = 0, D5 = 0;
   double reference_rate = 1;          ///< eps0, 1/s
-  double reference_temperature = 293; ///< K
+  double reference_temperature = 293; ///< of the fit, K
   double melt_temperature = 0, specific_heat = 0; ///< K, J/kg/K; needed by D5 only
+  double start_temperature = 293;     ///< of the scene, K
 };
 
 struct FailureState {

@@ -10,7 +10,8 @@ namespace ballast {
 /// Root d of trial - 3 G d = flow(d) on [0, trial/3G]; 0 when trial does not exceed flow(0).
 ///
 /// r(d) = trial - 3 G d - flow(d) falls from > 0 at 0 to <= 0 at trial/3G: regula falsi with the Illinois weight,
-/// bisected every fourth time. B ep^n has an infinite slope at 0, so Newton is not safe.
+/// halved by ratio every third time, and from the thirtieth on. B ep^n has an infinite slope at 0 and the rate factor a kink that is
+/// as steep, so Newton is not safe.
 template <class Flow> [[nodiscard]] PlasticIncrement solve_return(double trial, double shear, Flow&& flow) {
   const double at_rest = flow(0.0);
   if (trial <= at_rest) {
@@ -20,10 +21,12 @@ template <class Flow> [[nodiscard]] PlasticIncrement solve_return(double trial, 
   double r_low = trial - at_rest;
   double r_high = -flow(high);
   const double tolerance = 1e-11 * trial;
+  constexpr double far = 1e4; // the root may be 1e-30 where ep is 0
+  const auto between = [&] { return low == 0 ? high / far : high > far * low ? std::sqrt(low * high) : 0.5 * (low + high); };
   int side = 0;
   double d = high;
   for (int it = 1; it <= 100; ++it) {
-    d = it % 4 == 0 ? 0.5 * (low + high) : (low * r_high - high * r_low) / (r_high - r_low);
+    d = it % 3 == 0 || it > 30 ? between() : (low * r_high - high * r_low) / (r_high - r_low);
     const double r = trial - 3 * shear * d - flow(d);
     if (std::abs(r) <= tolerance || high - low <= 1e-15 * high) {
       return {d, true, it};

@@ -53,8 +53,8 @@ PlasticIncrement plastic_increment(const LinearHardening& m, const FlowState& s,
 
 double flow_stress(const JohnsonCook& m, const FlowState& s, double increment) {
   const double ep = s.plastic_strain + increment;
-  const double homologous = std::clamp(
-      s.thermal_energy / (m.specific_heat * (m.melt_temperature - m.reference_temperature)), 0.0, 1.0);
+  const double warmer = m.start_temperature - m.reference_temperature + s.thermal_energy / m.specific_heat;
+  const double homologous = std::clamp(warmer / (m.melt_temperature - m.reference_temperature), 0.0, 1.0);
   const double softening = homologous > 0 ? 1 - std::pow(homologous, m.m) : 1.0;
   const double rate = s.dt > 0 ? increment / s.dt / m.reference_rate : 0.0;
   const double hardening = m.A + (ep > 0 ? m.B * std::pow(ep, m.n) : 0.0);

@@ -25,13 +25,14 @@ struct LinearHardening {
 };
 
 /// sigma_y = (A + B ep^n)(1 + C ln(max(rate/eps0, 1)))(1 - T*^m), T* = (T - T0)/(Tm - T0) in [0, 1].
-/// Johnson & Cook 1983. Temperature T = T0 + (e - e0)/cp.
+/// Johnson & Cook 1983. T0 is the fit's, the temperature T = start + (e - e0)/cp.
 struct JohnsonCook {
   double shear_modulus = 0;
   double A = 0, B = 0, n = 1, C = 0, m = 1;
   double reference_rate = 1;      ///< 1/s
   double reference_temperature = 293, melt_temperature = 1e30; ///< K
   double specific_heat = 400;     ///< J/kg/K
+  double start_temperature = 293; ///< of the scene, K
 };
 
 using Strength = std::variant<NoStrength, LinearHardening, JohnsonCook, SteinbergGuinan>;

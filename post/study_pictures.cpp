@@ -255,6 +255,18 @@ void draw_varied(const Study& study, std::size_t key, const std::string& measure
   canvas.save_png(path);
 }
 
+/// An earlier study of the folder may have had other measures; only names that a study gives are removed.
+void remove_old_pictures(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() == ".png" && (name.starts_with("front_") || name.starts_with("by_")))
+      old.push_back(entry.path());
+  }
+  for (const auto& path : old)
+    std::filesystem::remove(path);
+}
+
 } // namespace
 
 bool is_study(const std::filesystem::path& folder) {
@@ -267,6 +279,7 @@ int draw_study(const std::filesystem::path& folder, std::ostream& log) {
   const Study study = read_study(folder);
   const std::filesystem::path pictures = folder / "pictures";
   std::filesystem::create_directories(pictures);
+  remove_old_pictures(pictures);
   int drawn = 0;
   const auto done = [&](const std::filesystem::path& path) {
     log << path.string() << '\n';

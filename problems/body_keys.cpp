@@ -12,7 +12,7 @@ SectionSpec radial_spec(std::size_t dim) {
   return {"[body.velocity_radial]",
           "Speed along the outward radius R, `speed` x (`at` / R)^`power`: `velocity_radial = { speed = \"-417.1 m/s\", at = \"80 mm\" }` is a shell whose inner "
           "surface, at 80 mm, moves in with its volume kept everywhere.",
-          {{.name = "speed", .kind = quantity, .doc = "outward; below 0: inward", .dimension = Dimension::velocity, .required = true},
+          {{.name = "speed", .kind = quantity, .doc = "outward; below 0: inward", .dimension = Dimension::velocity, .range = speeds(), .required = true},
            {.name = "at", .kind = quantity, .doc = "radius where it is that; required unless `power` is 0", .dimension = Dimension::length, .range = positive()},
            {.name = "power",
             .kind = quantity,

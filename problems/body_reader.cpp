@@ -59,6 +59,13 @@ void set_state(Context c, const Section& in, Body& body) {
     body.pressure = start.pressure;
   }
   const double c2 = sound_speed_squared(m.eos, body.density, body.specific_energy);
+  constexpr double rounding = 1e-9; // of the stiffness
+  if (c2 > 0 && c.scene.numerics.spall && body.pressure < m.spall_pressure - rounding * body.density * c2) {
+    DeckNode* given = in.has("pressure") ? in.node("pressure") : in.has("specific_energy") ? in.node("specific_energy") : in.node("density");
+    c.deck.fail(given != nullptr ? *given : in.self(),
+                fmt::format("{:g} Pa is below the spall pressure of {}, {:g} Pa: void would open everywhere in the first step", body.pressure, m.name, m.spall_pressure),
+                "a pressure above it, or numerics.spall = false");
+  }
   if (!(c2 > 0)) {
     c.deck.fail(
         {in.self().place,
@@ -221,7 +228,7 @@ void read_plain(Context c, const Section& in) {
     shape = read_shape(c.deck, *in.node("shape"), c.scene.geometry);
   }
   if (DeckNode* velocity = in.node("velocity")) {
-    if (read_quantities(c.deck, *velocity, Dimension::velocity, {}, c.dim(), c.dim())) {
+    if (read_quantities(c.deck, *velocity, Dimension::velocity, scene_keys::speeds(), c.dim(), c.dim())) {
       body.velocity = point_of(numbers_of(*velocity));
     }
   }
@@ -235,6 +242,10 @@ void read_plain(Context c, const Section& in) {
   body.shape = std::move(*shape);
   check_radial(c, in, body);
   if (!lean(c, in, body)) {
+    return;
+  }
+  if (std::holds_alternative<Combination>(body.shape.form) && is_empty(body.shape, c.scene.geometry, mesh_bounds(c.scene))) {
+    c.deck.fail(*in.node("shape"), "the shape is empty: its intersections and differences leave nothing of it", "parts that overlap, and less taken away");
     return;
   }
   c.scene.materials = c.book.used();
@@ -251,7 +262,7 @@ void read_part(Context c, const Section& in) {
   const std::optional<Point> axis = shot_direction(c, in);
   double speed = 0;
   if (DeckNode* velocity = in.node("velocity")) {
-    read_quantity(c.deck, *velocity, Dimension::velocity);
+    read_quantity(c.deck, *velocity, Dimension::velocity, scene_keys::speeds());
     speed = in.number("velocity", 0);
   }
   const std::optional<Point> tip = read_tip(c, in);
@@ -298,12 +309,6 @@ void read_part(Context c, const Section& in) {
   }
 }
 
-int body_called(const SceneSpec& scene, const std::string& name) {
-  const auto at = std::find_if(
-      scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
-  return at == scene.bodies.end() ? -1 : static_cast<int>(at - scene.bodies.begin());
-}
-
 } // namespace
 
 void read_bodies(Deck& deck, DeckNode* list, MaterialBook& book, SceneSpec& scene) {
@@ -319,28 +324,6 @@ void read_bodies(Deck& deck, DeckNode* list, MaterialBook& book, SceneSpec& scen
       read_part(c, in);
     }
   }
-}
-
-std::vector<int> listed_bodies(Deck& deck, DeckNode& list, const SceneSpec& scene) {
-  std::vector<int> bodies;
-  std::vector<std::string> names;
-  for (const Body& b : scene.bodies) {
-    names.push_back(b.name);
-  }
-  for (DeckNode& item : list.items) {
-    const int body = body_called(scene, item.text);
-    if (body < 0) {
-      const std::string meant = nearest(item.text, names);
-      deck.fail(item,
-                fmt::format("no body is called \"{}\"{}",
-                            item.text,
-                            meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)),
-                one_of(names));
-      continue;
-    }
-    bodies.push_back(body);
-  }
-  return bodies;
 }
 
 } // namespace ballast

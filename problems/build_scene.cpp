@@ -225,9 +225,8 @@ template <int Dim> void release_to_vacuum(Block<Dim>& b) {
 template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   for (const auto& axis : spec.boundaries) {
     for (const Boundary& side : axis) {
-      const bool goes_along = !spec.motion.remaps() || (spec.motion.policy == MotionPolicy::relax && !spec.motion.fixed_boundary);
-      if (side.kind == BoundaryKind::wall && side.wall_velocity != 0 && !goes_along) {
-        throw Error("mesh: a moving wall needs motion.policy = \"lagrangian\" or \"relax\": other meshes stay where they are at their sides");
+      if (side.kind == BoundaryKind::wall && side.wall_velocity != 0 && !sides_go_along(spec.motion)) {
+        throw Error("mesh: a moving wall needs sides that go along: motion.policy = \"lagrangian\", or \"relax\" with its boundary lagrangian");
       }
     }
   }

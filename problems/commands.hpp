@@ -39,7 +39,7 @@ struct StudyOptions {
   std::vector<std::string> vary;      ///< "key=v1,v2"
   std::vector<std::string> cases;     ///< "name: deck=FILE; key=value; ...": a first variation of decks and keys together
   std::vector<std::string> settings;  ///< --set, for all
-  std::string reference = "finest";   ///< or a deck, or "exact", or the name of a case
+  std::string reference = "finest";   ///< or a deck, or "exact", or the name of a case or a run
   std::string out;                    ///< folder; empty: studies/<deck's name>
   int jobs = 1, threads = 0;          ///< runs at once; threads of each, 0: the machine's shared by the jobs
   ExactSolver exact = {};             ///< what `--reference exact` asks

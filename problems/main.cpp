@@ -80,7 +80,7 @@ int dispatch(int argc, char** argv) {
       ->expected(1)
       ->take_all();
   sub->add_option("--set", study.settings, "key.path=value, for all runs; may be repeated")->expected(1)->take_all();
-  sub->add_option("--reference", study.reference, "what errors are against: finest (most cells), exact (known for Riemann problems and plate impact), a case, or a deck, REFERENCE.toml");
+  sub->add_option("--reference", study.reference, "what errors are against: finest (the run that alone has the most cells), exact (known for Riemann problems and plate impact), a case or a run by its name, or a deck, REFERENCE.toml");
   sub->add_option("--out", study.out, "folder of the study; what it holds of these runs is kept");
   sub->add_option("--jobs", study.jobs, "runs at once")->check(CLI::Range(1, 4096));
   sub->add_option("--threads", study.threads, "threads of each run; default: the machine's shared by the jobs")->check(CLI::Range(1, 4096));

@@ -116,13 +116,13 @@ double charge_of(const Eos& eos) {
 void start_at(Material& m, double pressure, double temperature) {
   m.reference_temperature = temperature;
   if (auto* jc = std::get_if<JohnsonCook>(&m.strength)) {
-    jc->reference_temperature = temperature;
+    jc->start_temperature = temperature;
   }
   if (auto* sg = std::get_if<SteinbergGuinan>(&m.strength)) {
     sg->reference_temperature = temperature;
   }
   if (m.failure) {
-    m.failure->reference_temperature = temperature;
+    m.failure->start_temperature = temperature;
   }
   if (auto* bulk = std::get_if<LinearBulk>(&m.eos)) {
     bulk->p0 = pressure;

@@ -118,7 +118,7 @@ const SectionSpec& motion() {
         .choices = {"lagrangian", "eulerian", "follow", "relax"}},
        {.name = "remap_every",
         .kind = integer,
-        .doc = "steps between remaps",
+        .doc = "steps between remaps; not with remap_quality, nor with policy lagrangian",
         .range = {1, 1e6},
         .fallback = "1"},
        {.name = "remap_quality",

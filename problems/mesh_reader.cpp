@@ -149,8 +149,13 @@ std::vector<double> read_lines(Context c, const Section& in, double refine, Dime
 
 void read_wall(Context c, const Section& in, Boundary& side) {
   if (DeckNode* velocity = in.node("velocity")) {
-    read_quantity(c.deck, *velocity, Dimension::velocity);
+    read_quantity(c.deck, *velocity, Dimension::velocity, scene_keys::speeds());
     side.wall_velocity = in.number("velocity", 0);
+    if (side.wall_velocity != 0 && !sides_go_along(c.scene.motion)) {
+      const bool fixed = c.scene.motion.policy == MotionPolicy::relax;
+      c.deck.fail(*velocity, fixed ? "a moving wall on a mesh whose boundary stays where it is" : "a moving wall on a mesh whose sides do not go along with it",
+                  fixed ? "motion.boundary = \"lagrangian\", or a wall at rest" : "motion.policy = \"lagrangian\" or \"relax\", or a wall at rest");
+    }
   }
 }
 
@@ -178,7 +183,7 @@ void read_inflow(Context c, const Section& in, std::size_t axis, std::size_t s, 
     }
   }
   if (DeckNode* velocity = in.node("velocity")) {
-    if (read_quantities(c.deck, *velocity, Dimension::velocity, {}, c.dim(), c.dim())) {
+    if (read_quantities(c.deck, *velocity, Dimension::velocity, scene_keys::speeds(), c.dim(), c.dim())) {
       side.velocity = point_of(numbers_of(*velocity));
       check_inflow(c, in, axis, s, side);
     }

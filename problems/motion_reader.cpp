@@ -22,18 +22,36 @@ std::vector<std::size_t> listed_axes(Deck& deck, const Section& in, const char* 
   return axes;
 }
 
+bool explicitly(const Section& in, const char* key) {
+  return in.has(key) && !in.node(key)->defaulted;
+}
+
+/// When a remap is due: by steps or by quality, and never on a lagrangian mesh.
+void read_due(Deck& deck, const Section& in, Motion& motion) {
+  motion.remap_every = in.integer("remap_every");
+  motion.remap_quality = in.number("remap_quality", 0);
+  const bool never = motion.policy == MotionPolicy::lagrangian;
+  for (const char* key : {"remap_every", "remap_quality"}) {
+    if (never && explicitly(in, key)) {
+      deck.fail_key(*in.node(key), "has no effect: a lagrangian mesh is never remapped", "another `policy`, or leave it out");
+    }
+  }
+  if (!never && motion.remap_quality > 0 && explicitly(in, "remap_every")) {
+    deck.fail_key(*in.node("remap_quality"), "contradicts `remap_every`: a remap is due by one or the other", "one of them");
+  }
+  if (never || motion.remap_quality > 0) { // no default, either, so that the resolved deck reads back
+    std::erase_if(in.self().fields, [](const auto& field) { return field.first == "remap_every" && field.second.defaulted; });
+  }
+}
+
 } // namespace
 
 void read_motion(Deck& deck, DeckNode& node, Motion& motion) {
   const Section in = read_section(deck, node, scene_keys::motion());
   motion.policy = static_cast<MotionPolicy>(in.choice("policy"));
-  motion.remap_every = in.integer("remap_every");
-  motion.remap_quality = in.number("remap_quality", 0);
+  read_due(deck, in, motion);
   motion.fixed_boundary = in.has("boundary") && in.text("boundary") == "fixed";
   motion.sweeps = in.has("sweeps") ? in.integer("sweeps") : motion.sweeps;
-  if (motion.remap_quality > 0 && motion.remap_every > 1) {
-    deck.fail_key(*in.node("remap_quality"), "contradicts `remap_every`: a remap is due by one or the other");
-  }
   for (const char* key : {"boundary", "sweeps"}) {
     if (motion.policy != MotionPolicy::relax && in.has(key)) {
       deck.fail_key(*in.node(key), "only with `policy = \"relax\"`");
@@ -102,7 +120,7 @@ void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene) {
       deck.fail({node.place, node.key + ".axes", fmt::format("the mesh would go along {}, where its sides are neither free nor absorbing", names[d]), "free or absorbing sides along the way"});
     }
   }
-  if (deck.errors().size() == errors_before && m.axes == std::array<bool, 3>{} && m.stretches == std::array<bool, 3>{}) {
+  if (deck.errors().size() == errors_before && !bodies_missing(deck, scene) && m.axes == std::array<bool, 3>{} && m.stretches == std::array<bool, 3>{}) {
     deck.fail({node.place, node.key + ".axes", "no way to go: none of the bodies has a velocity", "axes, or bodies that move"});
   }
 }

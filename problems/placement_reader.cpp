@@ -1,5 +1,6 @@
 // `rotate`, `offset` and `stl` of shapes.
 #include "problems/closed_surface.hpp"
+#include "problems/facet_winding.hpp"
 #include "problems/scene_keys.hpp"
 #include "problems/scene_reading.hpp"
 #include "problems/shape_placement.hpp"
@@ -96,8 +97,10 @@ std::optional<Shape> read_surface(Deck& deck, DeckNode& node, Geometry geometry)
   FacetMesh mesh = weld(file.facets);
   std::string problem = file.problem.empty() ? surface_flaw(mesh) : file.problem;
   problem = problem.empty() ? self_intersection(mesh) : problem;
+  problem = problem.empty() ? shared_space(mesh) : problem;
   if (!problem.empty()) {
-    deck.fail(*in.node("file"), problem, "a closed surface: every edge between two facets, all facing out, none cutting another");
+    deck.fail(*in.node("file"), problem, "a closed surface: every edge between two facets, all facing out, none cutting another; of several solids each "
+                                         "apart from the others, what lies inside another a cavity that faces inwards");
     return std::nullopt;
   }
   pin_file(deck, in, path, file.checksum);

@@ -60,8 +60,10 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
                    {"remap_kinetic_loss", l.remap_kinetic_loss}, {"remap_kinetic_returned_to_heat", l.remap_kinetic_return},
                    {"sliding_impact", l.sliding_impact},
                    {"left_block", l.energy_out}, {"slivers", l.sliver_energy}, {"unaccounted", a.unaccounted}};
+  const double energy_scale = std::max(std::abs(memory_.energy_start), 1e-300);
   j["conservation_errors"] = {{"mass_relative", mass_error},
-                              {"energy_relative", a.unaccounted / std::max(std::abs(memory_.energy_start), 1e-300)}};
+                              {"energy_relative", a.unaccounted / energy_scale}, // but for what the remap lost: that is an entry of the ledger
+                              {"remap_loss_not_returned_relative", l.remap_kinetic_loss / energy_scale}};
   j["floors"] = {{"slivers_dropped", l.slivers}, {"sliver_mass_kg", l.sliver_mass}, {"energy_return_cut", l.energy_floors},
                  {"spalled_cells", l.spalled_cells}, {"void_residues_closed", l.closed_voids}, {"step_retries", l.retries}};
   const Results& res = spec_.results;

@@ -67,7 +67,7 @@ const SectionSpec& ambient() {
                                      .fallback = "1 atm"},
                                     {.name = "temperature",
                                      .kind = quantity,
-                                     .doc = "where thermal softening counts from",
+                                     .doc = "of everything at the start; below the melting of what has strength",
                                      .dimension = Dimension::temperature,
                                      .range = positive(),
                                      .fallback = "293 K"}}};
@@ -133,7 +133,7 @@ const SectionSpec& numerics() {
         .kind = texts,
         .doc = "materials that slide along the others without friction: where they meet both keep their own "
                "velocity along the interface, and move as one across it. Those listed stick to each other. "
-               "Eulerian meshes without outflow sides; default none, all stick together"},
+               "Policies eulerian and follow, without outflow sides; default none, all stick together"},
        {.name = "dt_initial",
         .kind = quantity,
         .doc = "first step; default the stable one",
@@ -151,7 +151,7 @@ const SectionSpec& numerics() {
         .range = positive()},
        {.name = "dt_min",
         .kind = quantity,
-        .doc = "a stable step that falls below it ends the run as failed; default 1e-10 of `end_time`",
+        .doc = "a stable step that falls below it ends the run as failed; not above dt_max or `end_time`; default 1e-10 of `end_time`",
         .dimension = Dimension::time,
         .range = positive()},
        {.name = "spall",

@@ -5,6 +5,11 @@
 
 namespace ballast::scene_keys {
 
+/// What a velocity (m/s) may be: more is a slip of the unit.
+inline KeyRange speeds() {
+  return {-1e6, 1e6};
+}
+
 const SectionSpec& top();
 const SectionSpec& ambient();
 const SectionSpec& body();

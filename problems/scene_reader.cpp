@@ -29,6 +29,19 @@ void read_ambient(Deck& deck, DeckNode& node, SceneSpec& scene) {
   scene.ambient_temperature = in.number("temperature", scene.ambient_temperature);
 }
 
+/// What has strength has it at the start.
+void check_melting(Deck& deck, DeckNode& ambient, const SceneSpec& scene) {
+  std::string molten;
+  for (const Material& m : scene.materials) {
+    if (has_strength(m.strength) && m.melt_temperature > 0 && m.melt_temperature <= scene.ambient_temperature) {
+      molten += fmt::format("{}{} melts at {:g} K", molten.empty() ? "" : ", ", m.name, m.melt_temperature);
+    }
+  }
+  if (DeckNode* temperature = ambient.find("temperature"); !molten.empty() && temperature != nullptr) {
+    deck.fail(*temperature, fmt::format("at {:g} K these have no strength left: {}", scene.ambient_temperature, molten), "a temperature below, or `strength = \"none\"` for them");
+  }
+}
+
 /// A list of materials in use, each once, as indices into them.
 std::vector<int> listed_materials(Deck& deck, DeckNode* list, const SceneSpec& scene) {
   std::vector<int> order;
@@ -40,6 +53,9 @@ std::vector<int> listed_materials(Deck& deck, DeckNode* list, const SceneSpec& s
     DeckNode& item = list->items[i];
     const auto at = std::find(names.begin(), names.end(), item.text);
     const int index = static_cast<int>(at - names.begin());
+    if (at == names.end() && bodies_missing(deck, scene)) {
+      continue; // it may be of one of those
+    }
     if (at == names.end() || std::find(order.begin(), order.end(), index) != order.end()) {
       deck.fail(item,
                 at == names.end() ? fmt::format("\"{}\" is in no body", item.text)
@@ -69,10 +85,12 @@ std::vector<int> sliding_materials(Deck& deck, DeckNode* list, const SceneSpec& 
   const bool outflow = std::any_of(scene.boundaries.begin(), scene.boundaries.end(), [](const auto& sides) {
     return sides[0].kind == BoundaryKind::outflow || sides[1].kind == BoundaryKind::outflow;
   });
-  if (!sliding.empty() && sliding.size() == scene.materials.size()) {
+  if (!sliding.empty() && sliding.size() == scene.materials.size() && !bodies_missing(deck, scene)) {
     deck.fail_key(*list, "leaves nothing to slide along", "some of the materials, not all");
   } else if (!sliding.empty() && scene.motion.policy == MotionPolicy::lagrangian) {
     deck.fail_key(*list, "needs a remapped mesh: without a remap nothing slides", "motion.policy = \"eulerian\", or no sliding");
+  } else if (!sliding.empty() && scene.motion.policy == MotionPolicy::relax) {
+    deck.fail_key(*list, "needs a mesh that is rectilinear after each remap, which a relaxed one is not", "motion.policy = \"eulerian\" or \"follow\", or no sliding");
   } else if (!sliding.empty() && scene.map.curved()) {
     deck.fail_key(*list, "needs a rectilinear mesh: its walls are across the axes", "a mesh without `map`, or no sliding");
   } else if (!sliding.empty() && outflow) {
@@ -88,6 +106,18 @@ double subzonal_pressure(Deck& deck, const Section& in, const SceneSpec& scene) 
     deck.fail_key(*in.node("subzonal_pressure"), "a cell's quarters are known in 2D, as long as the mesh is Lagrangian", "0");
   }
   return merit;
+}
+
+/// A smallest step that the largest or the whole run falls short of ends every run in its first step.
+void check_steps(Deck& deck, const Section& in, const SceneSpec& scene) {
+  const Numerics& n = scene.numerics;
+  DeckNode* least = in.node("dt_min");
+  if (least != nullptr && scene.end_time > 0 && n.dt_min > scene.end_time) {
+    deck.fail(*least, fmt::format("{:g} s is more than the whole run, {:g} s", n.dt_min, scene.end_time), "a time far below every stable step, or leave it out");
+  } else if (n.dt_min > n.dt_max) {
+    deck.fail(least != nullptr ? *least : *in.node("dt_max"), fmt::format("no step is left between dt_min, {:g} s, and dt_max, {:g} s", n.dt_min, n.dt_max),
+              "dt_min below dt_max");
+  }
 }
 
 void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
@@ -108,6 +138,7 @@ void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
   n.dt_growth = in.number("dt_growth", n.dt_growth);
   n.dt_max = in.number("dt_max", n.dt_max);
   n.dt_min = in.number("dt_min", n.dt_min);
+  check_steps(deck, in, scene);
   n.spall = in.flag("spall");
   n.sleeping = in.flag("sleeping");
 }
@@ -208,6 +239,9 @@ void read_results(Deck& deck, DeckNode& node, SceneSpec& scene) {
       names.push_back(m.name);
     }
     const auto at = std::find(names.begin(), names.end(), in.text("target"));
+    if (at == names.end() && bodies_missing(deck, scene)) {
+      return; // it may be of one of those
+    }
     if (at == names.end()) {
       deck.fail(*in.node("target"),
                 fmt::format("\"{}\" is in no body", in.text("target")),
@@ -268,6 +302,10 @@ SceneSpec read_scene(Deck& deck) {
   if (DeckNode* output = usable(root, "output")) {
     read_output(deck, *output, scene.output);
   }
+  if (const DeckNode* numerics = root.find("numerics")) { // what bodies may start with depends on it
+    const DeckNode* spall = numerics->find("spall");
+    scene.numerics.spall = spall == nullptr || spall->kind != DeckNode::Kind::flag || spall->flag;
+  }
   const bool has_geometry = top.has("geometry");
   if (has_geometry) {
     scene.geometry = static_cast<Geometry>(top.choice("geometry"));
@@ -286,6 +324,9 @@ SceneSpec read_scene(Deck& deck) {
     read_bodies(deck, top.node("body"), book, scene);
     read_background(deck, top, book, scene);
     scene.materials = book.used();
+    if (DeckNode* ambient = usable(root, "ambient")) {
+      check_melting(deck, *ambient, scene);
+    }
     if (DeckNode* motion = usable(root, "motion")) {
       read_follow(deck, *motion, scene);
     }

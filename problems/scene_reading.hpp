@@ -87,7 +87,10 @@ Point point_of(const std::vector<double>& values);
 /// All [[body]] entries.
 void read_bodies(Deck& deck, DeckNode* list, MaterialBook& book, SceneSpec& scene);
 
-/// Bodies by name, as indices; unknown names are reported.
+/// Has an error kept a body of the deck out of the scene? Other sections that name its material are then not wrong for that.
+bool bodies_missing(const Deck& deck, const SceneSpec& scene);
+
+/// Bodies by name, as indices; unknown names are reported, but for bodies whose own errors kept them out.
 std::vector<int> listed_bodies(Deck& deck, DeckNode& list, const SceneSpec& scene);
 
 /// [motion], but for what a following mesh goes with.

@@ -130,6 +130,13 @@ std::string body_table(const SceneSpec& scene) {
                        radial,
                        describe(b.shape));
   }
+  const Bounds mesh = mesh_bounds(scene);
+  const double nothing = 1e-12 * cell_volume(scene.geometry, mesh.lo, mesh.hi);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (filled[i].volume <= nothing) {
+      out += fmt::format("  warning: body \"{}\" fills nothing of the mesh: later bodies cover it, or it lies beside it\n", scene.bodies[i].name);
+    }
+  }
   return out;
 }
 

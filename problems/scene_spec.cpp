@@ -37,6 +37,10 @@ const std::vector<std::string>& field_quantities() {
   return names;
 }
 
+bool sides_go_along(const Motion& motion) {
+  return motion.policy == MotionPolicy::lagrangian || (motion.policy == MotionPolicy::relax && !motion.fixed_boundary);
+}
+
 std::string name_of(Geometry geometry) {
   switch (geometry) {
   case Geometry::planar:

@@ -115,6 +115,8 @@ struct SceneSpec {
 const std::vector<std::string>& gauge_quantities();
 const std::vector<std::string>& field_quantities();
 
+/// Do the sides of a mesh with this motion go with the matter there?
+bool sides_go_along(const Motion& motion);
 /// "planar", "axisymmetric", "3d".
 std::string name_of(Geometry geometry);
 /// Names of the mesh axes, "r", "z" or "x", "y", "z".

@@ -111,6 +111,10 @@ bool contains(const Shape& shape, const Point& p);
 /// 1 where the surface misses the cell.
 double fraction(const Shape& shape, Geometry geometry, const Point& lo, const Point& hi);
 
+/// Do intersections and differences leave nothing of the shape? Looked at within its bounds, within `around` where they are infinite
+/// (and not at all where both are); what is thinner than all lines through a piece of 1/16 (2D: 1/64) of them may pass for nothing.
+bool is_empty(const Shape& shape, Geometry geometry, const Bounds& around);
+
 /// Shares of the cell that each of `shapes` shows, later shapes replacing earlier ones; what no
 /// shape covers is 1 minus their sum. `shares` has one entry a shape.
 void visible_fractions(std::span<const Shape* const> shapes,

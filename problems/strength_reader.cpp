@@ -11,7 +11,7 @@ const std::vector<ModelKeys>& strength_keys() {
   static const std::vector<ModelKeys> table = {
       {"none", {}},
       {"linear_hardening", {"shear_modulus", "yield", "hardening"}},
-      {"johnson_cook", {"shear_modulus", "A", "B", "n", "C", "m", "reference_rate"}},
+      {"johnson_cook", {"shear_modulus", "A", "B", "n", "C", "m", "reference_rate", "reference_temperature"}},
       {"steinberg_guinan",
        {"shear_modulus", "yield", "yield_max", "beta", "n", "shear_per_pressure", "thermal_softening", "melt_a"}}};
   return table;
@@ -42,7 +42,8 @@ JohnsonCook read_johnson_cook(Deck& deck, const Section& in, const Material& m, 
   set(s.reference_rate, in, "reference_rate");
   s.melt_temperature = m.melt_temperature;
   s.specific_heat = m.specific_heat;
-  s.reference_temperature = temperature;
+  set(s.reference_temperature, in, "reference_temperature");
+  s.start_temperature = temperature;
   return s;
 }
 
@@ -143,7 +144,8 @@ void read_failure(Deck& deck, const Section& in, Material& m, double temperature
   f.reference_rate = cook != nullptr ? cook->reference_rate : 1.0;
   f.melt_temperature = m.melt_temperature;
   f.specific_heat = m.specific_heat;
-  f.reference_temperature = temperature;
+  f.reference_temperature = cook != nullptr ? cook->reference_temperature : f.reference_temperature;
+  f.start_temperature = temperature;
   m.failure = f;
 }
 

@@ -63,6 +63,10 @@ void measure_errors(StudyRow& row, const std::filesystem::path& folder, const St
 /// Errors of `row` against the exact solution, as its run measured them: "L1 density", ...
 void take_exact_errors(StudyRow& row);
 
+/// Makes `folder` this program's for a new run. What an earlier one said goes first: a run that is killed leaves no other build's
+/// answer under this one's name.
+void claim_folder(const std::filesystem::path& folder);
+
 /// Writes study.csv, study.md and study.json (what `ballast report` draws) into `folder`.
 void write_study(const std::filesystem::path& folder, const StudyOptions& options, const std::vector<Variation>& variations,
                  const std::vector<StudyRow>& rows, const std::string& reference);

@@ -30,6 +30,7 @@ void on_stop(int) { stop_asked = 1; }
 struct Job {
   StudyPoint point;
   std::string deck;
+  std::size_t cells = 0;
 };
 
 /// Of this program's file, FNV-1a 64 bit: what another build made is not this one's answer.
@@ -149,9 +150,10 @@ private:
       report(all, index, "kept from an earlier run");
       return;
     }
-    fs::create_directories(folder);
     const Cost before = left == Left::part ? cost_of(folder) : Cost{};
-    write_cost(folder, before);
+    if (left != Left::part) {
+      claim_folder(folder);
+    }
     running_[start(all[index], folder, threads_, left == Left::part)] = {index, before};
   }
 
@@ -206,18 +208,44 @@ private:
   std::chrono::steady_clock::time_point start_;
 };
 
-/// The row others are measured by: of those that finished the one with most cells; of equals the last.
+/// The row others are measured by: of those that finished the one with most cells; of equals none.
 std::optional<std::size_t> finest(const std::vector<StudyRow>& rows) {
   std::optional<std::size_t> best;
+  bool alone = false;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].ended == "finished" && (!best || rows[i].cells >= rows[*best].cells)) {
+      alone = !best || rows[i].cells > rows[*best].cells;
       best = i;
     }
   }
-  return best;
+  return alone ? best : std::nullopt;
+}
+
+/// Throws Error where several runs have the most cells: which of them is right is not for the order of the command line to say.
+void require_one_finest(const std::vector<Job>& jobs) {
+  const auto most = std::max_element(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cells < b.cells; });
+  std::string listed;
+  int equals = 0;
+  for (const Job& job : jobs) {
+    constexpr int named = 8;
+    if (job.cells == most->cells && ++equals <= named) {
+      listed += fmt::format("{}{}", equals == 1 ? "" : ", ", job.point.name);
+    }
+  }
+  if (equals > 1) {
+    throw Error(fmt::format("--reference finest: {} runs have the most cells, {}: {}{}\n  allowed: one of these runs or another, a case or a deck by its "
+                            "name, exact, or a run that has more cells than all others",
+                            equals, most->cells, listed, equals > 8 ? ", ..." : ""));
+  }
 }
 
 } // namespace
+
+void claim_folder(const fs::path& folder) {
+  fs::create_directories(folder);
+  fs::remove(folder / "summary.json");
+  write_cost(folder, {});
+}
 
 namespace {
 
@@ -232,23 +260,30 @@ std::vector<Job> jobs_of(const StudyOptions& options, const std::vector<StudyCas
     if (options.reference == "exact" && !(options.exact && options.exact(read.scene, why_not))) {
       throw Error(fmt::format("--reference exact: {} ({}): {}", deck, point.name, why_not));
     }
-    jobs.push_back({std::move(point), deck});
+    jobs.push_back({std::move(point), deck, cell_count(read.scene)});
+  }
+  if (options.reference == "finest") {
+    require_one_finest(jobs);
   }
   return jobs;
 }
 
+/// Does --reference name this run, by itself or (with --case) by its case?
+bool names(const std::string& reference, const std::string& run, const std::vector<std::string>& values) {
+  return reference == run || (!values.empty() && reference == values[0]);
+}
+
 /// Errors of all rows by what the options name; the name of the reference, empty: none finished.
-std::string measure(const StudyOptions& options, const fs::path& folder, const std::vector<StudyCase>& cases, std::vector<StudyRow>& rows) {
+std::string measure(const StudyOptions& options, const fs::path& folder, bool by_deck, std::vector<StudyRow>& rows) {
   if (options.reference == "exact") {
     for (StudyRow& row : rows) {
       take_exact_errors(row);
     }
     return "the exact solution";
   }
-  const bool by_case = std::any_of(cases.begin(), cases.end(), [&](const StudyCase& c) { return c.name == options.reference; });
   std::optional<std::size_t> reference = options.reference == "finest" ? finest(rows) : std::optional(rows.size() - 1);
-  if (by_case) {
-    const auto at = std::find_if(rows.begin(), rows.end(), [&](const StudyRow& row) { return !row.values.empty() && row.values[0] == options.reference; });
+  if (options.reference != "finest" && !by_deck) {
+    const auto at = std::find_if(rows.begin(), rows.end(), [&](const StudyRow& row) { return names(options.reference, row.name, row.values); });
     reference = static_cast<std::size_t>(at - rows.begin());
   }
   if (!reference || rows[*reference].ended != "finished") {
@@ -279,8 +314,9 @@ int study_command(const StudyOptions& options, std::string& out) {
     throw Error("study: nothing to vary\n  allowed: --vary key.path=value,value,... or --case \"NAME: key.path=value; ...\"");
   }
   std::vector<Job> jobs = jobs_of(options, cases, variations);
-  const bool by_deck = options.reference != "finest" && options.reference != "exact" &&
-                       std::find(named.values.begin(), named.values.end(), options.reference) == named.values.end();
+  const bool by_deck = options.reference != "finest" && options.reference != "exact" && std::none_of(jobs.begin(), jobs.end(), [&](const Job& job) {
+    return names(options.reference, job.point.name, cases.empty() ? std::vector<std::string>{} : job.point.values);
+  });
   if (by_deck) {
     StudyPoint reference{.name = "reference", .values = {}, .settings = {}, .deck = {}, .hash = deck_hash(read_scene(options.reference))};
     jobs.push_back({std::move(reference), options.reference});
@@ -303,7 +339,7 @@ int study_command(const StudyOptions& options, std::string& out) {
     rows.back().name = job.point.name;
     rows.back().values = job.point.values;
   }
-  const std::string reference = measure(options, folder, cases, rows);
+  const std::string reference = measure(options, folder, by_deck, rows);
   if (!cases.empty()) {
     variations.insert(variations.begin(), named);
   }

@@ -91,7 +91,7 @@ std::string markdown(const StudyOptions& options, const std::vector<Variation>& 
   }
   const auto errors = names_of(rows, &StudyRow::errors);
   std::string out = fmt::format("# Study of {}\n\nReference: {}. Errors: relative; L1 and Linf {}.\n\n", options.deck,
-                                reference.empty() ? "none finished" : reference,
+                                reference.empty() ? "none that finished" : reference,
                                 options.reference == "exact" ? "over the last state, by its mean and its largest value" : "over the history, by the largest value");
   std::string head = "|", rule = "|";
   const auto column = [&](const std::string& name) {

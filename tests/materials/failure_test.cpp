@@ -35,6 +35,22 @@ TEST(JohnsonCookFailure, HeatDelaysItByD5AndSlowRatesDoNotChangeIt) {
   EXPECT_EQ(failure_strain(m, {0, 1e-6, 0}), cold);
 }
 
+TEST(JohnsonCookFailure, WarmAtTheStartIsAsDuctileAsHeatedThere) {
+  JohnsonCookFailure warm = model_of("steel_4340");
+  warm.start_temperature = 793;
+  EXPECT_NEAR(failure_strain(warm, {0, 1, 0}), failure_strain(model_of("steel_4340"), {0, 1, 477 * 500.0}), 1e-12);
+}
+
+TEST(JohnsonCookFailure, PressureWithoutATermForItDoesNotBreak) {
+  JohnsonCookFailure m = model_of("steel_4340");
+  m.D1 = 0.5;
+  m.D2 = 0;
+  for (const double d3 : {-20.0, -2.0, 0.0, 2.0}) {
+    m.D3 = d3;
+    EXPECT_NEAR(failure_strain(m, {-400, 1, 0}), 0.5, 1e-12) << d3; // nearly molten: all pressure, no deviator
+  }
+}
+
 TEST(JohnsonCookFailure, StrainIsNeverBelowItsLeast) {
   // 6061's published set gives -0.05 at t = 1.5, and more mean tension than that counts as 1.5.
   const JohnsonCookFailure& m = model_of("al_6061_t6");

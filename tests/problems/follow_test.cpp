@@ -6,7 +6,9 @@
 #include "problems/scene_reader.hpp"
 #include "tests/observers.hpp"
 
+#include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace ballast {
@@ -199,6 +201,38 @@ z = { from = "-150 mm", to = "150 mm", size = "10 mm" }
   EXPECT_NEAR(totals(b).mass[0] + scene.ledger.mass_out[0], start, 1e-12 * start);
   EXPECT_GT(window.ledger.mass_out[0], 0.9 * start);
   EXPECT_LT(scene.ledger.mass_out[0], 0.15 * start); // the thin gas of the front runs ahead of the mean
+}
+
+// Where the plane of symmetry stands is a matter of the deck's numbers only.
+TEST(Follow, GrowsFromItsPlaneOfSymmetryWhereverThatIs) {
+  const auto ends = [](double plane) {
+    const auto mm = [&](double x) { return plane + x; };
+    const SceneSpec spec = scene_of(fmt::format(R"(
+title = "slab of gas that bursts"
+geometry = "planar"
+end_time = "0.3 ms"
+ambient = {{ pressure = "0 Pa" }}
+[[body]]
+name = "gas"
+material = "air"
+pressure = "1 atm"
+shape = {{ box = {{ from = ["{} mm", "0 mm"], to = ["{} mm", "50 mm"] }} }}
+[mesh]
+x = {{ from = "{} mm", to = "{} mm", size = "5 mm", lower = "symmetry" }}
+y = {{ from = "0 mm", to = "50 mm", size = "25 mm", lower = "symmetry", upper = "symmetry" }}
+)", mm(0), mm(100), mm(0), mm(150)), gas_follows + "axes = []\nstretch = [\"x\"]\n");
+    const Scene<2> scene = at_end(spec);
+    const Block<2>& b = scene.blocks[0];
+    const double lower = b.position[0].row(b.grid.node_row(0, 0))[0], upper = b.position[0].row(b.grid.node_row(0, 0))[b.grid.cells[0]];
+    EXPECT_EQ(lower, plane * 1e-3);
+    return std::array<double, 2>{upper - lower, totals(b).mass[0]};
+  };
+  const auto at_zero = ends(0), shifted = ends(40), before = ends(-30);
+  EXPECT_GT(at_zero[0], 0.2);
+  for (const std::size_t q : {0UL, 1UL}) {
+    EXPECT_NEAR(shifted[q], at_zero[q], 1e-9 * at_zero[q]);
+    EXPECT_NEAR(before[q], at_zero[q], 1e-9 * at_zero[q]);
+  }
 }
 
 // A side that only grows, without going anywhere, takes in what lies ahead of it: a shell of muscle that goes on beyond the mesh.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <filesystem>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sstream>
 
@@ -48,6 +49,8 @@ shape = { half_space = { point = ["0 mm", "9 mm"], outward = [0, -1] } }
 [mesh]
 r = { from = "0 mm", to = "8 mm", size = "0.5 mm", upper = "wall" }
 z = { from = "0 mm", to = "10 mm", size = "0.5 mm", lower = { type = "wall", velocity = "3 m/s" }, upper = "outflow" }
+[motion]
+policy = "relax"
 [materials.copper_ofhc]
 A = "100 MPa"
 )";
@@ -70,7 +73,7 @@ TEST(Scene, IsResolvedInSi) {
   EXPECT_TRUE(s.mesh_lines[2].empty());
   EXPECT_EQ(s.background, -1);
   EXPECT_EQ(s.interface_order, (std::vector<int>{0, 1}));
-  EXPECT_EQ(s.motion.policy, MotionPolicy::eulerian);
+  EXPECT_EQ(s.motion.policy, MotionPolicy::relax);
 }
 
 TEST(Scene, ResolvedDeckReadsBackToItself) {
@@ -82,6 +85,30 @@ TEST(Scene, ResolvedDeckReadsBackToItself) {
   read_scene(again);
   ASSERT_TRUE(again.clean()) << again.error_report();
   EXPECT_EQ(once, write_toml(again.root()));
+}
+
+TEST(Scene, ResolvedDecksReadBackHoweverARemapIsDue) {
+  for (const char* motion : {"policy=\"relax\"", "policy=\"lagrangian\"", "remap_quality=0.5"}) {
+    Deck deck = Deck::parse(small, "test.toml", {fmt::format("motion.{}", motion)});
+    read_scene(deck);
+    ASSERT_TRUE(deck.clean()) << deck.error_report();
+    Deck again = Deck::parse(write_toml(deck.root()), "resolved.toml");
+    read_scene(again);
+    EXPECT_TRUE(again.clean()) << again.error_report();
+  }
+}
+
+TEST(Scene, BodiesThatFillNothingAreNamed) {
+  const std::string again = "[[body]]\nname = \"lid\"\nmaterial = \"lead\"\nshape = { half_space = { point = [\"0 mm\", \"8.9 mm\"], outward = [0, -1] } }\n";
+  const std::string covered = std::string(small).insert(small.find("[mesh]"), again);
+  EXPECT_EQ(scene_table(scene_of(small)).find("warning"), std::string::npos);
+  EXPECT_NE(scene_table(scene_of(covered)).find("warning: body \"water\" fills nothing"), std::string::npos);
+}
+
+TEST(Scene, TensionBelowSpallIsForDecksWithoutSpall) {
+  Deck deck = Deck::parse(small, "test.toml", {"body.water.pressure=-1 GPa", "numerics.spall=false"});
+  read_scene(deck);
+  EXPECT_TRUE(deck.clean()) << deck.error_report();
 }
 
 TEST(Scene, OrderOfSectionsDoesNotMatter) {

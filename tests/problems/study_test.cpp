@@ -61,13 +61,40 @@ TEST(Study, ErrorsAreAgainstTheReference) {
   write("b/history.csv", "t,energy_total [J],bullet_velocity [m/s]\n0,1,100\n2,1,80\n");
   StudyRow a, b;
   a.ended = b.ended = "finished";
-  a.results = {{"bullet.velocity_m_per_s", 60}, {"conservation.mass_relative", 1}};
-  b.results = {{"bullet.velocity_m_per_s", 80}, {"conservation.mass_relative", 2}};
+  a.results = {{"bullet.velocity_m_per_s", 60}, {"conservation.mass_relative", 1}, {"exact.L1_density", 0.01}};
+  b.results = {{"bullet.velocity_m_per_s", 80}, {"conservation.mass_relative", 2}, {"exact.L1_density", 0.02}};
   measure_errors(a, folder.path() / "a", b, folder.path() / "b");
   EXPECT_DOUBLE_EQ(a.errors.at("bullet.velocity_m_per_s"), 0.25);
   EXPECT_DOUBLE_EQ(a.errors.at("L1 bullet_velocity"), 0.1);    // 0, 10, 20 by trapezoids, over 100
   EXPECT_DOUBLE_EQ(a.errors.at("Linf bullet_velocity"), 0.2);
-  EXPECT_EQ(a.errors.size(), 3); // neither the ledger nor the round-off of conservation is an answer
+  EXPECT_EQ(a.errors.size(), 3); // neither the ledger, nor the round-off of conservation, nor a run's own error is an answer
+}
+
+TEST(Study, FinestIsOneRunAlone) {
+  StudyOptions options;
+  options.deck = BALLAST_SOURCE_DIR "/problems/sod.toml";
+  options.vary = {"numerics.cfl=0.2,0.4"};
+  const io::TemporaryFolder folder;
+  options.out = folder.path().string();
+  std::string out;
+  try {
+    study_command(options, out);
+    FAIL() << "two runs have the same cells";
+  } catch (const Error& e) {
+    const std::string what = e.what();
+    for (const char* part : {"--reference finest", "000_numerics.cfl=0.2", "001_numerics.cfl=0.4", "allowed: "}) {
+      EXPECT_NE(what.find(part), std::string::npos) << what;
+    }
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())); // before the first run
+}
+
+TEST(Study, AFolderClaimedForARunHoldsNoOtherAnswer) {
+  const io::TemporaryFolder folder;
+  std::ofstream(folder.path() / "summary.json") << R"({"ended": "finished", "deck_hash": "1"})";
+  claim_folder(folder.path());
+  EXPECT_EQ(read_study_row(folder.path()).ended, "");
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "study.json"));
 }
 
 } // namespace

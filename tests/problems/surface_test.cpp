@@ -1,5 +1,6 @@
 // Closed surfaces of facets: what encloses no solid is told, what does is filled like any shape.
 #include "facet_bodies.hpp"
+#include "problems/facet_winding.hpp"
 #include "problems/scene_report.hpp"
 #include "problems/stl_file.hpp"
 
@@ -184,6 +185,49 @@ TEST(SurfaceFlaw, FacetsThatCutEachOtherAreFound) {
   EXPECT_EQ(surface_flaw(weld(cubes)), ""); // each is closed
   EXPECT_NE(self_intersection(weld(cubes)).find("cut each other at "), std::string::npos);
   EXPECT_EQ(self_intersection(ball_mesh({0, 0, 0}, 1, 4)), "");
+}
+
+/// The facets of several boxes; `inwards`: the last one faces in.
+FacetMesh boxes(std::initializer_list<CellBox> all, bool inwards = false) {
+  std::vector<Facet> facets;
+  for (const CellBox& box : all) {
+    for (Facet f : box_facets(box.lo, box.hi)) {
+      if (inwards && &box == all.end() - 1) {
+        std::swap(f[1], f[2]);
+      }
+      facets.push_back(f);
+    }
+  }
+  return weld(facets);
+}
+
+TEST(SurfaceFlaw, SolidsThatShareSpaceAreFound) {
+  const CellBox cube{{1, 1, 1}, {3, 3, 3}};
+  const FacetMesh sharing[] = {
+      boxes({cube, {{2, 2, 2}, {4, 4, 4}}}), // edges through the diagonals of faces
+      boxes({cube, {{2, 1, 1}, {4, 3, 3}}}), // faces in one plane
+      boxes({cube, {{1, 1, 1.5}, {3, 3, 2.5}}}),
+      boxes({{{1, 1, 1}, {5, 5, 5}}, {{2, 2, 2}, {4, 4, 4}}}), // one in the other
+      boxes({{{0, 0, 0}, {100, 100, 100}}, {{40, 40, 40}, {40.1, 40.1, 40.1}}}),
+      boxes({cube, {{4, 4, 4}, {5, 5, 5}}}, true), // a cavity in nothing
+  };
+  for (const FacetMesh& mesh : sharing) {
+    EXPECT_EQ(surface_flaw(mesh), "") << "each is closed";
+    EXPECT_NE(shared_space(mesh), "") << &mesh - sharing;
+  }
+}
+
+TEST(SurfaceFlaw, SolidsApartAndCavitiesAreNone) {
+  const CellBox cube{{1, 1, 1}, {3, 3, 3}};
+  const FacetMesh apart[] = {
+      boxes({cube}), boxes({cube, {{4, 4, 4}, {5, 5, 5}}}),
+      boxes({cube, {{3, 1.5, 1.5}, {4, 2.5, 2.5}}}),                 // one flush on the other
+      boxes({{{1, 1, 1}, {5, 5, 5}}, {{2, 2, 2}, {4, 4, 4}}}, true), // hollow
+      ball_mesh({0.1, 0.2, 0.3}, 1, 4),
+  };
+  for (const FacetMesh& mesh : apart) {
+    EXPECT_EQ(shared_space(mesh), "") << &mesh - apart;
+  }
 }
 
 // ---- files ----

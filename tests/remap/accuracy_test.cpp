@@ -83,7 +83,6 @@ template <int Dim> void expect_second_order(const Motion<Dim>& motion, int n, co
   for (const int every : intervals) {
     const auto coarse = cyclic_error<Dim>(motion, n, every), fine = cyclic_error<Dim>(motion, 2 * n, every);
     for (std::size_t q = 0; q < 2; ++q) {
-std::printf("%s %d %g\n", name, every, std::log2(coarse[q] / fine[q]));
       EXPECT_GE(std::log2(coarse[q] / fine[q]), 1.8) << name << ", every " << every << ", " << (q == 0 ? "density" : "velocity") << ": " << coarse[q] << " " << fine[q];
     }
   }
