@@ -33,7 +33,7 @@ template <int Dim> LayersCost cost_of(const LayersSpec& layers, const SceneSpec&
   cost.bytes = count * bytes_of(stack);
   cost.step = stable_step(stack, layers.cfl).dt;
   cost.steps = scene.end_time / cost.step;
-  const double microseconds = Dim == 3 ? 0.25 : 0.1; // an element-step (docs/performance.md)
+  const double microseconds = Dim == 3 ? 0.25 : 0.07; // an element-step of the printed law, measured
   cost.core_seconds = 1e-6 * microseconds * cost.elements * cost.steps;
   return cost;
 }

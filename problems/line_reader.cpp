@@ -37,7 +37,7 @@ bool check_sizes(Deck& deck, const AxisPlan& plan, DeckNode& size, Dimension dim
   const std::size_t n = plan.to.size();
   if (plan.size.size() != n && plan.size.size() != n + 1) {
     deck.fail(size,
-              fmt::format("{} sizes for {} places in `to`", plan.size.size(), n),
+              fmt::format("{} sizes for {} places", plan.size.size(), n),
               fmt::format("{} (one a place) or {} (one at `from` too)", n, n + 1));
     return false;
   }
