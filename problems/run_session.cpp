@@ -37,6 +37,9 @@ template <int Dim>
 RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& dir, int threads, const std::string& restart, const ExactSolver& exact)
     : read_(read), spec_(read.scene), dir_(dir), scene_(build_scene<Dim>(read.scene, threads)), slots_(slot_map(read.scene)),
       restarted_(!restart.empty()), terminal_(isatty(STDOUT_FILENO) != 0), lateral_(read.scene) {
+  if (!spec_.layers.empty()) {
+    throw Error("layers: a run cannot move them yet; `ballast check` reads and weighs them");
+  }
   clock_.end_time = spec_.end_time;
   memory_.deck_hash = deck_hash(read);
   if (restarted_) {
