@@ -1,6 +1,7 @@
 // Stacks and measures that the tests of the layers share.
 #pragma once
 
+#include "ale/layers/layer_account.hpp"
 #include "ale/layers/layer_step.hpp"
 #include "tests/materials/fabric_laws.hpp"
 
@@ -53,7 +54,7 @@ template <int Dim, class Field, class Map> void place(const LayerStack<Dim>& s, 
 
 template <int Dim> double total_energy(const LayerStack<Dim>& s, const LayerLedger& ledger) {
   const LayerTotals t = totals(s);
-  return t.kinetic + t.internal + t.hourglass + ledger.edge_work + ledger.edge_loss;
+  return t.leapfrog_kinetic + t.internal + t.hourglass + ledger.edge_work + ledger.edge_loss + ledger.contact_loss + ledger.step_change;
 }
 
 template <int Dim> double largest_force(const LayerStack<Dim>& s) {
