@@ -3,10 +3,13 @@
 #include "ale/layers/layer_account.hpp"
 #include "ale/layers/layer_edges.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace ballast {
 namespace {
+
+constexpr double least_radius = 0.01; ///< of that at rest: a ring that closes has met itself
 
 template <int Dim> void accelerate(LayerStack<Dim>& s, double half, ThreadPool& pool) {
   parallel_ranges(pool, static_cast<int>(s.node_count()), [&](int begin, int end, int) {
@@ -58,12 +61,26 @@ template <int Dim> void drift(LayerStack<Dim>& s, double dt, ThreadPool& pool) {
   });
 }
 
+template <int Dim> void stop_at_axis(LayerStack<Dim>& s, double dt) {
+  if (!s.axisymmetric) {
+    return;
+  }
+  for (std::size_t n = 0; n < s.node_count(); ++n) {
+    const double least = least_radius * s.rest[0][n], r = s.position[0][n];
+    double& v = s.velocity[0][n];
+    if (v < 0 && r + dt * v < least) {
+      v = std::min(0.0, (least - r) / dt);
+    }
+  }
+}
+
 template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact) {
   kick(s, dt / 2, ledger, pool);
   keep_velocity(s);
   if (contact) {
     contact();
   }
+  stop_at_axis(s, dt);
   book_contact(s, dt, ledger, pool);
   book_work(s, dt / 2, ledger, pool);
   drift(s, dt, pool);
@@ -108,6 +125,8 @@ template void kick<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&);
 template void kick<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&);
 template void drift<2>(LayerStack<2>&, double, ThreadPool&);
 template void drift<3>(LayerStack<3>&, double, ThreadPool&);
+template void stop_at_axis<2>(LayerStack<2>&, double);
+template void stop_at_axis<3>(LayerStack<3>&, double);
 template void substep<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&);
 template void substep<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&);
 template LayerTotals totals<2>(const LayerStack<2>&);

@@ -33,6 +33,10 @@ template <int Dim> void kick(LayerStack<Dim>& stack, double half, LayerLedger& l
 /// x += dt v.
 template <int Dim> void drift(LayerStack<Dim>& stack, double dt, ThreadPool& pool);
 
+/// Around an axis: rings do not pass it. Takes the inward velocity that would bring a node below a hundredth of its radius in the step:
+/// where cloth has no strength when pressed in its plane nothing else does, and elements would turn inside out. An impact: contact_loss.
+template <int Dim> void stop_at_axis(LayerStack<Dim>& stack, double dt);
+
 /// One step of all phases; contact() is called between the first kick and the drift.
 template <int Dim> void substep(LayerStack<Dim>& stack, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact = {});
 

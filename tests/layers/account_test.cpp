@@ -156,5 +156,31 @@ TEST(LayerAccount, LossIsThatOfTheContactReports) {
   EXPECT_NEAR(ledger.contact_loss, reported, 1e-12 * kinetic);
 }
 
+// A printed-law ring that is thrown at the axis: nothing resists but the axis, elements stay right side out and the account exact.
+TEST(LayerAccount, RingsStopAtTheAxis) {
+  LayerInput in = brick(fabric_laws::paper(), {8, 1, 2}, {1e-3, 1, 0.5e-3}, 2);
+  in.axisymmetric = true;
+  in.edge[0] = {LayerEdge::symmetry, LayerEdge::free};
+  LayerStack<2> s = make_stack<2>(in);
+  place(s, s.velocity, [](std::array<double, 2> X) -> std::array<double, 2> { return {X[0] > 0 ? -100.0 : 0.0, 0}; });
+  ThreadPool pool(1);
+  LayerLedger ledger;
+  update_forces(s, 0.0, ledger, pool);
+  const double energy = total_energy(s, ledger);
+  double time = 0, least = 1;
+  while (time < 30e-6) {
+    const double dt = stable_step(s).dt;
+    substep(s, dt, ledger, pool);
+    time += dt;
+    for (std::size_t n = 0; n < s.node_count(); ++n) {
+      least = std::min(least, s.rest[0][n] > 0 ? s.position[0][n] / s.rest[0][n] : 1.0);
+    }
+  }
+  EXPECT_GT(least, 0.0099);
+  EXPECT_LT(least, 0.011);
+  EXPECT_GT(ledger.contact_loss, 0.1 * energy);
+  EXPECT_NEAR(total_energy(s, ledger), energy, 1e-12 * energy);
+}
+
 } // namespace
 } // namespace ballast
