@@ -6,7 +6,7 @@
 
 namespace ballast {
 
-constexpr double farthest_stray = 0.5; // of a cell: a mesh that only drifts keeps its quality, but must not leave its place
+constexpr double farthest_stray = 2; // cells: a mesh that only drifts keeps its quality, but must not leave its place
 
 template <int Dim> void start_motion(Block<Dim>& b) {
   if (!b.motion.moves_target()) {

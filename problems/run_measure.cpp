@@ -240,6 +240,22 @@ double cavity_radius(
   return largest;
 }
 
+/// From a cell on to the one that holds `at`, its faces taken at their means; as far as a mesh moves between remaps.
+template <int Dim> std::array<int, 3> walk_to(const Block<Dim>& b, const std::array<double, 3>& at, std::array<int, 3> cell) {
+  constexpr int farthest = 64;
+  for (int step = 0; step < farthest; ++step) {
+    const std::array<int, 3> before = cell;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto x = cell_range(b, static_cast<int>(d), cell[0], cell[1], cell[2]);
+      cell[d] = std::clamp(cell[d] + (at[d] < x[0] ? -1 : at[d] > x[1] ? 1 : 0), 0, b.grid.cells[d] - 1);
+    }
+    if (cell == before) {
+      break;
+    }
+  }
+  return cell;
+}
+
 template <int Dim>
 std::array<int, 3> find_cell(const Block<Dim>& b, const std::array<double, 3>& at) {
   const Grid& g = b.grid;
@@ -258,7 +274,7 @@ std::array<int, 3> find_cell(const Block<Dim>& b, const std::array<double, 3>& a
       }
       cell[a] = c;
     }
-    return cell;
+    return b.motion.policy == MotionPolicy::eulerian ? walk_to(b, at, cell) : cell; // between remaps the mesh is on its way
   }
   double best = std::numeric_limits<double>::infinity();
   for_each_cell(b, [&](int i, int j, int k) {

@@ -69,7 +69,6 @@ resolution() {
   local s=resolution list
   list="$(scaled 0.25),$(scaled 0.5),$(scaled 1),$(scaled 2)"
   run $s m80 problems/m80_tissue.toml --vary "mesh.refine=$list" --set 'end_time="60 us"'
-  run $s m80_every_step problems/m80_tissue.toml --vary "mesh.refine=$list" --set 'end_time="60 us"' --set motion.remap_every=1
   run $s m80_window problems/m80_window.toml --vary "mesh.refine=$(scaled 0.25),$(scaled 0.5),$(scaled 1)" --set 'end_time="60 us"'
 }
 
@@ -87,7 +86,7 @@ scene_needs() {
     --case 'equal strain: numerics.closure="equal_strain"' \
     --case 'energy return on: numerics.energy_return="on"' \
     --case 'stuck: numerics.sliding=[]'
-  run $s dimensions problems/m80_tissue.toml --reference 'RZ' --set 'end_time="30 us"' \
+  run $s dimensions problems/m80_tissue.toml --reference 'RZ' --set 'end_time="30 us"' --set motion.remap_every=1 \
     --case "RZ: mesh.refine=$(scaled 0.5)" \
     --case "quarter 3D: deck=problems/m80_tissue_3d.toml; mesh.refine=$r" \
     --case "half 3D: deck=problems/m80_yaw_3d.toml; mesh.refine=$r; body.0.yaw=0"
@@ -96,7 +95,7 @@ scene_needs() {
 threads_and_size() {
   local s=threads_and_size t
   for t in 1 2; do
-    run $s "m80_$t" problems/m80_tissue.toml --vary "mesh.refine=$(scaled 0.5),$(scaled 1),$(scaled 2)" --threads $t --set 'end_time="10 us"'
+    run $s "m80_$t" problems/m80_tissue.toml --vary "mesh.refine=$(scaled 0.5),$(scaled 1),$(scaled 2)" --threads $t --set 'end_time="10 us"' --set motion.remap_every=1
   done
   mkdir -p docs/studies/$s
   { printf '# `ballast_bench`\n\n```\n'; for t in 1 2; do "$ballast_build/bench/ballast_bench" $t; done; printf '```\n'; } > docs/studies/$s/bench.md
