@@ -1,5 +1,7 @@
 #include "problems/build_layers.hpp"
 
+#include <algorithm>
+
 namespace ballast {
 
 template <int Dim> LayerStack<Dim> build_stack(const LayersSpec& spec, Geometry geometry) {
@@ -19,17 +21,18 @@ template <int Dim> LayerStack<Dim> build_stack(const LayersSpec& spec, Geometry 
   return stack;
 }
 
-template <int Dim> std::vector<LayerStack<Dim>> build_stacks(const SceneSpec& scene) {
-  std::vector<LayerStack<Dim>> stacks;
-  for (const LayersSpec& spec : scene.layers) {
-    stacks.push_back(build_stack<Dim>(spec, scene.geometry));
-  }
-  return stacks;
+template <int Dim> Layers<Dim> build_layers(const LayersSpec& spec, Geometry geometry) {
+  Layers<Dim> layers;
+  layers.stack = build_stack<Dim>(spec, geometry);
+  layers.contact.friction = spec.friction;
+  layers.cfl = spec.cfl;
+  layers.substeps = std::max(1, spec.subcycles);
+  return layers;
 }
 
 template LayerStack<2> build_stack<2>(const LayersSpec&, Geometry);
 template LayerStack<3> build_stack<3>(const LayersSpec&, Geometry);
-template std::vector<LayerStack<2>> build_stacks<2>(const SceneSpec&);
-template std::vector<LayerStack<3>> build_stacks<3>(const SceneSpec&);
+template Layers<2> build_layers<2>(const LayersSpec&, Geometry);
+template Layers<3> build_layers<3>(const LayersSpec&, Geometry);
 
 } // namespace ballast

@@ -1,6 +1,7 @@
-// From a LayersSpec to a LayerStack at rest.
+// From a LayersSpec to a LayerStack at rest, and to the Layers of a scene.
 #pragma once
 
+#include "ale/layers/layers.hpp"
 #include "problems/scene_spec.hpp"
 
 namespace ballast {
@@ -8,7 +9,7 @@ namespace ballast {
 /// A stack at rest, its forces zero; layers counted from the lowest. Throws Error: name, what is wrong, the cure.
 template <int Dim> LayerStack<Dim> build_stack(const LayersSpec& spec, Geometry geometry);
 
-/// All of a scene, in its order.
-template <int Dim> std::vector<LayerStack<Dim>> build_stacks(const SceneSpec& scene);
+/// Likewise, with its contact and its steps.
+template <int Dim> Layers<Dim> build_layers(const LayersSpec& spec, Geometry geometry);
 
 } // namespace ballast

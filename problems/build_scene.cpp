@@ -2,6 +2,7 @@
 
 #include "ale/fill.hpp"
 #include "core/error.hpp"
+#include "problems/build_layers.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -273,6 +274,9 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   }
   apply_boundary_velocity(b);
   scene.blocks.push_back(std::move(b));
+  for (const LayersSpec& layers : spec.layers) {
+    scene.layers.push_back(build_layers<Dim>(layers, spec.geometry));
+  }
   prepare(scene);
   return scene;
 }

@@ -127,20 +127,20 @@ template <int Dim> io::ElementDump dump_stack(const LayerStack<Dim>& s, int mate
 
 } // namespace
 
-template <int Dim> std::vector<io::ElementDump> dump_layers(std::span<const LayerStack<Dim>> stacks, const std::vector<std::string>& material_names) {
+template <int Dim> std::vector<io::ElementDump> dump_layers(std::span<const LayerStack<Dim>* const> stacks, const std::vector<std::string>& material_names) {
   std::vector<std::string> names = material_names;
-  for (const LayerStack<Dim>& s : stacks) {
-    names.push_back(s.name);
+  for (const LayerStack<Dim>* s : stacks) {
+    names.push_back(s->name);
   }
   std::vector<io::ElementDump> dumps;
-  for (const LayerStack<Dim>& s : stacks) {
-    dumps.push_back(dump_stack(s, static_cast<int>(material_names.size() + dumps.size())));
+  for (const LayerStack<Dim>* s : stacks) {
+    dumps.push_back(dump_stack(*s, static_cast<int>(material_names.size() + dumps.size())));
     dumps.back().material_names = names;
   }
   return dumps;
 }
 
-template std::vector<io::ElementDump> dump_layers<2>(std::span<const LayerStack<2>>, const std::vector<std::string>&);
-template std::vector<io::ElementDump> dump_layers<3>(std::span<const LayerStack<3>>, const std::vector<std::string>&);
+template std::vector<io::ElementDump> dump_layers<2>(std::span<const LayerStack<2>* const>, const std::vector<std::string>&);
+template std::vector<io::ElementDump> dump_layers<3>(std::span<const LayerStack<3>* const>, const std::vector<std::string>&);
 
 } // namespace ballast

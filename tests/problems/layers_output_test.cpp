@@ -101,7 +101,8 @@ TEST(LayerDump, LeavesErodedElementsOutAndKeepsStrainAndStress) {
   ThreadPool pool(1);
   update_forces(s, 0, ledger, pool);
   s.alive[s.element(2, 3, 1)] = 0;
-  const auto dumps = dump_layers<3>(std::span(&s, 1), {"lead"});
+  const LayerStack<3>* one = &s;
+  const auto dumps = dump_layers<3>(std::span(&one, 1), {"lead"});
   ASSERT_EQ(dumps.size(), 1U);
   const io::ElementDump& dump = dumps[0];
   EXPECT_EQ(dump.elements.size(), 8 * (s.element_count() - 1));

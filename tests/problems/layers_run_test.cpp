@@ -1,0 +1,135 @@
+// A run of a scene with fabric layers: what it conserves, what it writes, and that threads do not change a bit.
+#include "problems/run_session.hpp"
+#include "tests/io/temporary_folder.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace ballast {
+namespace {
+
+/// A lead disc on three layers whose edges lie free: nothing outside acts along the shot.
+std::string deck(bool solid) {
+  const std::string body = solid ? R"(
+geometry = "3d"
+end_time = "4 us"
+[[body]]
+name = "disc"
+material = "lead"
+velocity = [0, 0, "370 m/s"]
+shape = { cylinder = { from = [0, 0, "-3 mm"], to = [0, 0, 0], radius = "6 mm" } }
+[mesh]
+map = "rod"
+outer_radius = "6 mm"
+u = { from = 0, to = 1, cells = 3 }
+v = { from = 0, to = 1, cells = 3 }
+z = { from = "-3 mm", to = "0 mm", cells = 2 }
+)"
+                                 : R"(
+geometry = "axisymmetric"
+end_time = "15 us"
+[[body]]
+name = "disc"
+material = "lead"
+velocity = ["0 m/s", "370 m/s"]
+shape = { cylinder = { from = ["0 mm", "-3 mm"], to = ["0 mm", "0 mm"], radius = "6 mm" } }
+[mesh]
+r = { from = "0 mm", to = "6 mm", cells = 6 }
+z = { from = "-3 mm", to = "0 mm", cells = 3 }
+)";
+  return "title = \"disc on vest\"\n" + body + R"(
+[motion]
+policy = "relax"
+remap_every = 4
+[numerics]
+spall = false
+[[layers]]
+name = "vest"
+fabric = "kevlar_km2_raftenberg"
+front = "0 mm"
+layers = 3
+half_width = "20 mm"
+cells = 10
+friction = 0.2
+[output]
+fields_every = "5 us"
+[results]
+bullet = ["disc"]
+)";
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  EXPECT_TRUE(in.good()) << path;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Written {
+  nlohmann::json summary;
+  std::string history, back_face;
+};
+
+template <int Dim> Written run(int threads) {
+  const io::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "deck.toml", dir = folder.path() / "run";
+  std::ofstream(file) << deck(Dim == 3);
+  const ReadScene read = read_scene(file.string(), {});
+  EXPECT_EQ(RunSession<Dim>(read, dir, threads, "").run(), 0);
+  return {nlohmann::json::parse(text_of(dir / "summary.json")), text_of(dir / "history.csv"), text_of(dir / "back_face_0001.csv")};
+}
+
+template <int Dim> void expect_conserved(const nlohmann::json& j) {
+  EXPECT_LT(std::abs(j["conservation_errors"]["mass_relative"].get<double>()), 1e-13);
+  EXPECT_LT(std::abs(j["conservation_errors"]["energy_relative"].get<double>()), 1e-10);
+  const nlohmann::json& vest = j["results"]["layers"]["vest"];
+  EXPECT_EQ(vest["mass_kg"]["start"], vest["mass_kg"]["end"]);
+  const double start = j["momentum_kg_m_per_s"]["start"][Dim - 1], end = j["momentum_kg_m_per_s"]["end"][Dim - 1];
+  EXPECT_NEAR(end, start, 1e-12 * start);
+  const double taken = vest["momentum_kg_m_per_s"]["end"][Dim - 1];
+  EXPECT_GT(taken, 0.05 * start); // the disc pushed
+  EXPECT_GT(vest["deflection_m"]["last"].get<double>(), 1e-4);
+  EXPECT_GT(vest["energy_J"]["contact_loss"].get<double>(), 0.0);
+  EXPECT_GE(vest["substeps"].get<long>(), j["steps"].get<long>());
+}
+
+TEST(LayersRun, DiscOnAVestConservesMassMomentumAndEnergyAroundAnAxis) { expect_conserved<2>(run<2>(1).summary); }
+
+TEST(LayersRun, DiscOnAVestConservesMassMomentumAndEnergyInSpace) { expect_conserved<3>(run<3>(2).summary); }
+
+template <int Dim> void expect_same_bits() {
+  const Written one = run<Dim>(1);
+  for (const int threads : {2, 3}) {
+    const Written more = run<Dim>(threads);
+    EXPECT_EQ(one.history, more.history) << threads;
+    EXPECT_EQ(one.back_face, more.back_face) << threads;
+    EXPECT_EQ(one.summary["results"], more.summary["results"]) << threads;
+  }
+}
+
+TEST(LayersRun, SameBitsOnAnyNumberOfThreads) {
+  expect_same_bits<2>();
+  expect_same_bits<3>();
+}
+
+TEST(LayersRun, HistoryHasTheColumnsOfTheStack) {
+  const std::string history = run<2>(1).history, header = history.substr(0, history.find('\n'));
+  for (const char* column : {"vest_deflection [m]", "vest_dome_radius_r [m]", "vest_energy_kinetic [J]", "vest_contact_loss [J]", "bullet_velocity [m/s]"}) {
+    EXPECT_NE(header.find(column), std::string::npos) << column;
+  }
+}
+
+TEST(LayersRun, RestartIsRefused) {
+  const io::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "deck.toml", dir = folder.path() / "run";
+  std::ofstream(file) << deck(false);
+  const ReadScene read = read_scene(file.string(), {});
+  EXPECT_EQ(RunSession<2>(read, dir, 1, "").run(), 0);
+  EXPECT_THROW(RunSession<2>(read, dir, 1, (dir / "checkpoint.h5").string()), Error);
+}
+
+} // namespace
+} // namespace ballast
