@@ -38,16 +38,13 @@ template <int Dim>
 RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& dir, int threads, const std::string& restart, const ExactSolver& exact)
     : read_(read), spec_(read.scene), dir_(dir), scene_(build_scene<Dim>(read.scene, threads)), slots_(slot_map(read.scene)),
       restarted_(!restart.empty()), terminal_(isatty(STDOUT_FILENO) != 0), lateral_(read.scene), layers_(read.scene) {
-  if (restarted_ && !spec_.layers.empty()) {
-    throw Error("--restart: checkpoints do not hold layers yet; run the deck from its start");
-  }
   clock_.end_time = spec_.end_time;
   memory_.deck_hash = deck_hash(read);
   if (restarted_) {
     read_checkpoint(restart, scene_, clock_, memory_);
     const auto& o = memory_.observed;
     const std::size_t lateral_at = 5 + 4 * spec_.gauges.size();
-    if (o.size() != lateral_at + lateral_.memory().size()) {
+    if (o.size() != lateral_at + lateral_.memory().size() + layers_.memory().size()) {
       throw Error(restart + ": the state of a failed run, kept for inspection; restart from a checkpoint.h5 before it");
     }
     dt_min_ = o.at(0);
@@ -59,7 +56,8 @@ RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& 
       gauge_peaks_.push_back(o.at(5 + 4 * q));
       gauge_velocity_.push_back({o.at(6 + 4 * q), o.at(7 + 4 * q), o.at(8 + 4 * q)});
     }
-    lateral_.recall(std::span(o).subspan(lateral_at));
+    const std::size_t layers_at = lateral_at + lateral_.recall(std::span(o).subspan(lateral_at));
+    layers_.recall(std::span(o).subspan(layers_at));
   } else {
     const Totals t = totals(scene_.blocks[0]);
     const LayerSums layers = sum_layers(scene_.layers);
@@ -129,6 +127,8 @@ template <int Dim> void RunSession<Dim>::checkpoint() {
   }
   const std::vector<double> lateral = lateral_.memory();
   memory.observed.insert(memory.observed.end(), lateral.begin(), lateral.end());
+  const std::vector<double> layers = layers_.memory();
+  memory.observed.insert(memory.observed.end(), layers.begin(), layers.end());
   write_checkpoint(dir_ / "checkpoint.h5", scene_, clock_, memory);
   last_checkpoint_ = std::chrono::steady_clock::now();
 }
