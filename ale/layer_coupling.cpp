@@ -9,19 +9,6 @@ namespace ballast {
 
 namespace {
 
-/// Momentum and kinetic energy of a stack's nodes.
-template <int Dim> double kinetic(const LayerStack<Dim>& stack) {
-  double sum = 0;
-  for (std::size_t n = 0; n < stack.node_count(); ++n) {
-    double square = 0;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      square += stack.velocity[d][n] * stack.velocity[d][n];
-    }
-    sum += 0.5 * stack.mass[n] * square;
-  }
-  return sum;
-}
-
 template <int Dim> bool has_hole(const LayerStack<Dim>& stack, int layer) {
   const LayerGrid& g = stack.grid;
   const auto begin = stack.alive.begin() + static_cast<std::ptrdiff_t>(stack.element(0, 0, layer * g.through));
@@ -75,10 +62,8 @@ template <int Dim> void touch_blocks(Layers<Dim>& l, std::vector<std::vector<Blo
 }
 
 template <int Dim> void touch(Layers<Dim>& l, std::vector<std::vector<BlockSurface<Dim>>>& blocks, double dt, double done, double h, ThreadPool& pool) {
-  const double before = kinetic(l.stack);
   const SlidelineReport report = resolve_slidelines(l.stack, h, l.stack.velocity, pool, l.contact, l.slidelines);
   touch_blocks(l, blocks, dt, done, h, pool); // last: what is heaviest has the last word in a step
-  l.ledger.contact_loss += before - kinetic(l.stack);
   l.ledger.friction_loss += report.contact.friction_loss;
   l.ledger.deepest = std::max(l.ledger.deepest, report.contact.deepest);
   l.closing = std::max(l.closing, report.closing_share);

@@ -22,7 +22,7 @@ struct DimensionUnits {
 
 const DimensionUnits& units_of(Dimension dimension) {
   constexpr double deg = std::numbers::pi / 180;
-  static const std::array<DimensionUnits, 14> table = {{
+  static const std::array<DimensionUnits, 15> table = {{
       {"number", {}},
       {"length",
        {{"m", 1},
@@ -54,6 +54,7 @@ const DimensionUnits& units_of(Dimension dimension) {
       {"angle", {{"rad", 1}, {"deg", deg}}},
       {"specific heat", {{"J/kg/K", 1}, {"kJ/kg/K", 1e3}, {"J/g/K", 1e3}}},
       {"conductivity", {{"W/m/K", 1}, {"mW/m/K", 1e-3}}},
+      {"areal density", {{"kg/m2", 1}, {"g/m2", 1e-3}, {"g/cm2", 10}, {"kg/m^2", 1}, {"lb/ft2", 4.882427636383051}}},
       {"rate", {{"1/s", 1}, {"1/ms", 1e3}, {"1/us", 1e6}}},
   }};
   return table[static_cast<std::size_t>(dimension)];

@@ -21,6 +21,7 @@ enum class Dimension {
   angle,
   specific_heat,
   conductivity,
+  areal_density,
   rate
 };
 

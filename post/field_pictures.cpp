@@ -142,7 +142,7 @@ Colour sample_colour(const SectionRaster& raster,
     return white;
   if (panel.field == Field::material)
     return m < 0 ? light_grey : series.colour(m);
-  const float value = panel.field == Field::pressure ? raster.pressure[s] : raster.speed[s];
+  const float value = panel.field == Field::pressure ? raster.pressure[s] : panel.field == Field::damage ? raster.damage[s] : raster.speed[s];
   if (!std::isfinite(value))
     return light_grey;
   const FieldScale& scale = *panel.scale;
@@ -254,6 +254,8 @@ Series make_series(const std::vector<Section>& sections, const std::string& titl
   if (const auto scale = field_scale(sections, Field::pressure))
     series.panels.push_back(
         {Field::pressure, "Pressure [" + scale->unit.name + "]" + plane, scale});
+  if (const auto scale = field_scale(sections, Field::damage))
+    series.panels.push_back({Field::damage, "Damage of the fabric" + plane, scale});
   if (const auto scale = field_scale(sections, Field::speed))
     series.panels.push_back({Field::speed, "Speed [m/s]" + plane, scale});
   return series;

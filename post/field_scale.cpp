@@ -54,7 +54,22 @@ double cut_outliers(double extreme, double nearly_all, double tolerance) {
 
 } // namespace
 
+namespace {
+
+/// From 0 to rupture; what unloads beyond it is in the tip of the bar.
+std::optional<FieldScale> damage_scale(const std::vector<Section>& sections) {
+  float most = -1;
+  for_each_cell(sections, [&](const SectionCell& cell) { most = std::isfinite(cell.damage) ? std::max(most, cell.damage) : most; });
+  if (most < 0)
+    return std::nullopt;
+  return FieldScale{.low = 0, .high = 1, .below = false, .above = most > 1, .map = positive_half(), .unit = {"1", 1}};
+}
+
+} // namespace
+
 std::optional<FieldScale> field_scale(const std::vector<Section>& sections, Field field) {
+  if (field == Field::damage)
+    return damage_scale(sections);
   std::vector<float> values;
   for_each_cell(sections, [&](const SectionCell& cell) {
     const float value = field == Field::pressure ? cell.pressure : cell.speed;

@@ -10,7 +10,7 @@
 
 namespace ballast::post {
 
-enum class Field { material, pressure, speed };
+enum class Field { material, pressure, speed, damage };
 
 /// Values beyond low..high are drawn in the end colours; the colour bar then ends in a tip.
 struct FieldScale {
@@ -23,7 +23,7 @@ struct FieldScale {
 /// The scale of a field over all sections; none if no section has it. Taken from the active cells
 /// (above a hundredth of the largest value): pressure ends at the percentile 99 if the extreme lies
 /// well beyond, speed at the largest value unless a few cells stand out threefold. Pressure with
-/// tension gets a scale symmetric about zero.
+/// tension gets a scale symmetric about zero. Damage of fabric goes from 0 to 1, rupture.
 std::optional<FieldScale> field_scale(const std::vector<Section>& sections, Field field);
 
 /// What is shown, m.

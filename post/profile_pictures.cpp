@@ -35,6 +35,13 @@ Line profile(const Section& section, float SectionCell::*field, std::size_t axis
   return line;
 }
 
+bool has_fabric(const std::vector<Section>& sections) {
+  for (const SectionBlock& block : sections.front().blocks)
+    if (std::any_of(block.cells.begin(), block.cells.end(), [](const SectionCell& cell) { return cell.part > 0; }))
+      return true;
+  return false;
+}
+
 bool has_values(const LinePlot& plot) {
   return std::any_of(plot.lines.begin(), plot.lines.end(), [](const Line& line) {
     return std::any_of(
@@ -45,6 +52,8 @@ bool has_values(const LinePlot& plot) {
 } // namespace
 
 bool is_one_dimensional(const std::vector<Section>& sections) {
+  if (has_fabric(sections))
+    return false; // a wide vest is thin, too
   const View view = whole_view(sections, false);
   return std::max(view.width(), view.height()) > long_sided * std::min(view.width(), view.height());
 }

@@ -11,7 +11,7 @@
 
 namespace ballast::post {
 
-/// True if one side of all that is shown is more than 20 times the other.
+/// True if one side of all that is shown is more than 20 times the other and none of it is fabric.
 bool is_one_dimensional(const std::vector<Section>& sections);
 
 /// Writes profile_pressure.png and profile_speed.png; one line to `log` for each. Returns their

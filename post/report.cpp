@@ -12,6 +12,7 @@
 #include "core/io/history.hpp"
 #include "core/io/vtk.hpp"
 #include "core/units.hpp"
+#include "post/back_face_pictures.hpp"
 #include "post/field_pictures.hpp"
 #include "post/history_pictures.hpp"
 #include "post/profile_pictures.hpp"
@@ -47,7 +48,7 @@ std::vector<io::PvdEntry> chosen_times(const std::vector<io::PvdEntry>& all) {
 
 /// An earlier report may have had more pictures; only names that a report gives are removed.
 void remove_old_pictures(const fs::path& folder) {
-  static const std::regex ours(R"re((fields|closeup|profile|history)_.*\.png)re");
+  static const std::regex ours(R"re((fields|closeup|profile|history|back_face)_.*\.png)re");
   std::vector<fs::path> old;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (std::regex_match(entry.path().filename().string(), ours))
@@ -62,12 +63,14 @@ int report_fields(const fs::path& dir,
                   std::ostream& log,
                   const std::optional<View>& close) {
   std::vector<Section> sections;
-  for (const io::PvdEntry& entry : chosen_times(io::read_pvd(dir / "fields.pvd")))
+  const std::vector<io::PvdEntry> times = chosen_times(io::read_pvd(dir / "fields.pvd"));
+  for (const io::PvdEntry& entry : times)
     sections.push_back(read_section(dir / entry.file, entry.time));
   if (sections.empty())
     return 0;
-  return is_one_dimensional(sections) ? draw_profile_pictures(sections, title, folder, log)
-                                      : draw_field_pictures(sections, title, folder, log, close);
+  const int maps = is_one_dimensional(sections) ? draw_profile_pictures(sections, title, folder, log)
+                                                : draw_field_pictures(sections, title, folder, log, close);
+  return maps + draw_back_face_pictures(dir, times, title, folder, log);
 }
 
 View read_view(const std::string& text) {

@@ -15,6 +15,7 @@
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkStructuredGrid.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLMultiBlockDataReader.h>
 
 #include "core/error.hpp"
@@ -80,6 +81,41 @@ void add_cells(vtkStructuredGrid* grid, SectionBlock& block) {
     }
 }
 
+/// The drawn face of an element: of a quad the whole, of a hexahedron the lower one along j.
+std::array<vtkIdType, 4> drawn_face(vtkIdList* corners) {
+  const bool solid = corners->GetNumberOfIds() == 8;
+  const std::array<vtkIdType, 4> at = solid ? std::array<vtkIdType, 4>{0, 1, 5, 4} : std::array<vtkIdType, 4>{0, 1, 2, 3};
+  return {corners->GetId(at[0]), corners->GetId(at[1]), corners->GetId(at[2]), corners->GetId(at[3])};
+}
+
+void add_elements(vtkUnstructuredGrid* grid, SectionBlock& block) {
+  const auto array = [grid](const char* name) { return grid->GetCellData()->GetArray(name); };
+  vtkDataArray *material = array("material"), *speed = array("speed"), *section = array("section"), *layer = array("layer");
+  vtkDataArray *warp = array("damage_warp"), *fill = array("damage_fill");
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+    grid->GetCellPoints(cell, corners);
+    const bool solid = corners->GetNumberOfIds() == 8;
+    if (solid && (!section || section->GetTuple1(cell) == 0))
+      continue;
+    SectionCell& out = block.cells.emplace_back();
+    const auto nodes = drawn_face(corners);
+    for (std::size_t c = 0; c < 4; ++c) {
+      double p[3];
+      grid->GetPoint(nodes[c], p);
+      out.corners[c] = {static_cast<float>(p[0]), static_cast<float>(solid ? p[2] : p[1])};
+    }
+    if (speed)
+      out.speed = static_cast<float>(speed->GetTuple1(cell));
+    if (warp && fill)
+      out.damage = static_cast<float>(std::max(warp->GetTuple1(cell), fill->GetTuple1(cell)));
+    if (material)
+      out.material = static_cast<int>(material->GetTuple1(cell));
+    if (layer)
+      out.part = 1 + static_cast<int>(layer->GetTuple1(cell));
+  }
+}
+
 void add_polygons(vtkPolyData* set, bool solid, SectionBlock& block) {
   vtkDataArray* material = set->GetCellData()->GetArray("material");
   if (!material)
@@ -118,6 +154,9 @@ void add_data(vtkDataObject* data, Section& section, SectionBlock& block) {
   } else if (auto* polygons = vtkPolyData::SafeDownCast(data)) {
     add_facts(polygons, section);
     add_polygons(polygons, section.geometry == "3d", block);
+  } else if (auto* elements = vtkUnstructuredGrid::SafeDownCast(data)) {
+    add_facts(elements, section);
+    add_elements(elements, block);
   } else if (auto* inner = vtkMultiBlockDataSet::SafeDownCast(data)) {
     for (unsigned int k = 0; k < inner->GetNumberOfBlocks(); ++k)
       add_data(inner->GetBlock(k), section, block);

@@ -1,6 +1,7 @@
 // Section: what a picture shows of one dump. 2D blocks as they are (x, y) or (r, z); of 3D blocks
 // the face of the lowest j (the plane y = 0), or of the dump's `section_layer`, drawn as (x, z): cell values from the layer above it,
-// interfaces where the reconstructed planes of its mixed cells meet it.
+// interfaces where the reconstructed planes of its mixed cells meet it. Of fabric layers the elements that are left; in 3D
+// the faces that lay on y = 0 at rest.
 #pragma once
 
 #include <array>
@@ -17,7 +18,9 @@ struct SectionCell {
   std::array<Corner, 4> corners;
   float pressure = std::numeric_limits<float>::quiet_NaN(); // Pa
   float speed = std::numeric_limits<float>::quiet_NaN();    // m/s
+  float damage = std::numeric_limits<float>::quiet_NaN();   // of fabric: the worse of warp and fill; 1 is rupture
   int material = unknown;
+  int part = 0; // fabric layer, from 1; 0: none
   static constexpr int unknown = -2, none = -1;
 };
 

@@ -1,5 +1,7 @@
 #include "post/section_raster.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace ballast::post {
@@ -16,11 +18,19 @@ struct Projection {
   }
 };
 
+/// Samples between the lower and the upper side of a cell.
+double height(const std::array<Point, 4>& shape) {
+  return std::min(std::hypot(shape[3].x - shape[0].x, shape[3].y - shape[0].y), std::hypot(shape[2].x - shape[1].x, shape[2].y - shape[1].y));
+}
+
+constexpr double told_apart = 10; // samples
+
 void draw_cell(const SectionCell& cell, const Projection& project, SectionRaster& raster) {
   const std::array<Point, 4> shape{project(cell.corners[0]),
                                    project(cell.corners[1]),
                                    project(cell.corners[2]),
                                    project(cell.corners[3])};
+  const int part = height(shape) < told_apart ? 0 : cell.part;
   for_each_span(shape, raster.columns, raster.rows, [&](int row, int first, int end) {
     for (int column = first; column < end; ++column) {
       const std::size_t s = raster.index(column, row);
@@ -29,6 +39,8 @@ void draw_cell(const SectionCell& cell, const Projection& project, SectionRaster
       raster.material[s] = cell.material;
       raster.pressure[s] = cell.pressure;
       raster.speed[s] = cell.speed;
+      raster.damage[s] = cell.damage;
+      raster.part[s] = part;
     }
   });
 }
@@ -52,11 +64,12 @@ SectionRaster sample(const Section& section, const PlotArea& area, bool mirrored
     return static_cast<int>(std::lround(pixels * Canvas::fine));
   };
   SectionRaster raster{
-      fine(area.box.x), fine(area.box.y), fine(area.box.width), fine(area.box.height), {}, {}, {}};
+      fine(area.box.x), fine(area.box.y), fine(area.box.width), fine(area.box.height), {}, {}, {}, {}, {}};
   const std::size_t samples = raster.index(0, raster.rows);
   raster.material.assign(samples, SectionCell::none);
   raster.pressure.assign(samples, std::numeric_limits<float>::quiet_NaN());
-  raster.speed = raster.pressure;
+  raster.speed = raster.damage = raster.pressure;
+  raster.part.assign(samples, 0);
   for (const SectionBlock& block : section.blocks)
     for (const bool flipped : {false, true}) {
       if (flipped && !mirrored)
@@ -81,11 +94,12 @@ std::vector<bool> interface_samples(const SectionRaster& raster) {
   };
   for (int row = 0; row < raster.rows; ++row)
     for (int column = 0; column < raster.columns; ++column) {
-      const int here = raster.material[raster.index(column, row)];
-      const bool right =
-          column + 1 < raster.columns && raster.material[raster.index(column + 1, row)] != here;
-      const bool below =
-          row + 1 < raster.rows && raster.material[raster.index(column, row + 1)] != here;
+      const std::size_t here = raster.index(column, row);
+      const auto differs = [&](std::size_t there) {
+        return raster.material[there] != raster.material[here] || raster.part[there] != raster.part[here];
+      };
+      const bool right = column + 1 < raster.columns && differs(raster.index(column + 1, row));
+      const bool below = row + 1 < raster.rows && differs(raster.index(column, row + 1));
       if (right || below)
         mark(column, row);
     }

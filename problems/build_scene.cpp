@@ -2,6 +2,7 @@
 
 #include "ale/fill.hpp"
 #include "core/error.hpp"
+#include "problems/build_layers.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -230,6 +231,9 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
       }
     }
   }
+  if (!spec.layers.empty() && !sides_go_along(spec.motion)) {
+    throw Error("layers: only the free sides of a mesh touch them, and this one does not go with what it holds: motion.policy = \"lagrangian\", or \"relax\" with its boundary lagrangian");
+  }
   Scene<Dim> scene;
   scene.title = spec.title;
   scene.numerics = method_of(spec);
@@ -269,10 +273,16 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
     set_outside(spec, slots, b);
   }
   if (starts_with_void(b)) {
+    if (!spec.layers.empty()) {
+      throw Error("layers: only the free sides of the mesh touch them, and it begins with void: a mesh of exactly what strikes them");
+    }
     release_to_vacuum(b);
   }
   apply_boundary_velocity(b);
   scene.blocks.push_back(std::move(b));
+  for (const LayersSpec& layers : spec.layers) {
+    scene.layers.push_back(build_layers<Dim>(layers, spec.geometry));
+  }
   prepare(scene);
   return scene;
 }

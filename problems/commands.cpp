@@ -1,6 +1,7 @@
 #include "problems/commands.hpp"
 
 #include "core/deck_keys.hpp"
+#include "materials/fabric_library.hpp"
 #include "materials/library.hpp"
 #include "problems/scene_keys.hpp"
 #include "problems/scene_reader.hpp"
@@ -21,17 +22,25 @@ int materials_command(const std::string& name) {
     for (const std::string& known : material_names()) {
       fmt::print("{}\n", describe(*find_material(known)));
     }
+    for (const std::string& known : fabric_names()) {
+      fmt::print("{}\n", describe(*find_fabric(known)));
+    }
     return static_cast<int>(ExitStatus::finished);
   }
   const Material* material = find_material(name);
-  if (material == nullptr) {
-    const std::string meant = nearest(name, material_names());
+  const FabricMaterial* fabric = find_fabric(name);
+  if (material == nullptr && fabric == nullptr) {
+    std::vector<std::string> names = material_names();
+    for (const std::string& known : fabric_names()) {
+      names.push_back(known);
+    }
+    const std::string meant = nearest(name, names);
     throw Error(fmt::format("no material is called \"{}\"{}\n  allowed: {}\n",
                             name,
                             meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant),
-                            one_of(material_names())));
+                            one_of(names)));
   }
-  fmt::print("{}", describe(*material));
+  fmt::print("{}", material != nullptr ? describe(*material) : describe(*fabric));
   return static_cast<int>(ExitStatus::finished);
 }
 

@@ -50,7 +50,7 @@ int run_command(const RunOptions& options);
 int study_command(const StudyOptions& options, std::string& folder);
 int verify_command(const VerifyOptions& options);
 int check_command(const CheckOptions& options);
-/// Prints one material, or all; an unknown name throws Error.
+/// Prints one material or fabric, or all; an unknown name throws Error.
 int materials_command(const std::string& name);
 /// Prints docs/deck.md.
 int deck_reference_command();

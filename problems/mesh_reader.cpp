@@ -1,19 +1,15 @@
 // [mesh]: graded lines and boundaries of each axis.
-#include "problems/mesh_lines.hpp"
+#include "problems/line_reader.hpp"
 #include "problems/mesh_map_reader.hpp"
 #include "problems/scene_keys.hpp"
 #include "problems/scene_reading.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace ballast {
 namespace {
 
-constexpr double most_cells = 2e8;
-constexpr double steepest_allowed = 1.5;
 
 struct Context {
   Deck& deck;
@@ -21,131 +17,6 @@ struct Context {
   SceneSpec& scene;
   std::size_t dim() const { return static_cast<std::size_t>(dimensions(scene.geometry)); }
 };
-
-/// "3 m", "90 deg", "1": a coordinate along an axis, for messages.
-std::string spoken(double value, Dimension dimension) {
-  if (dimension == Dimension::angle) {
-    return fmt::format("{:g} deg", value * 180 / std::numbers::pi);
-  }
-  return fmt::format("{:g}{}", value, dimension == Dimension::none ? "" : " m");
-}
-
-/// One quantity or a list of them, as a list.
-std::optional<std::vector<double>> places_of(Context c, DeckNode& node, Dimension dimension, const KeyRange& range) {
-  if (node.is_array()) {
-    if (!read_quantities(c.deck, node, dimension, range, 1)) {
-      return std::nullopt;
-    }
-    return numbers_of(node);
-  }
-  if (!read_quantity(c.deck, node, dimension, range)) {
-    return std::nullopt;
-  }
-  return std::vector<double>{node.number};
-}
-
-/// The node of entry i of a value that may be a list or a single one.
-DeckNode& entry(DeckNode& node, std::size_t i) {
-  return node.is_array() ? node.items[i] : node;
-}
-
-bool check_rising(Context c, double from, DeckNode& to, const std::vector<double>& values, Dimension dimension) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double before = i == 0 ? from : values[i - 1];
-    if (values[i] <= before) {
-      c.deck.fail(entry(to, i),
-                  fmt::format("{} is not above {}", spoken(values[i], dimension), spoken(before, dimension)),
-                  "places that rise from `from`");
-      return false;
-    }
-  }
-  return true;
-}
-
-bool check_sizes(Context c, const AxisPlan& plan, DeckNode& size, Dimension dimension) {
-  const std::size_t n = plan.to.size();
-  if (plan.size.size() != n && plan.size.size() != n + 1) {
-    c.deck.fail(size,
-                fmt::format("{} sizes for {} places in `to`", plan.size.size(), n),
-                fmt::format("{} (one a place) or {} (one at `from` too)", n, n + 1));
-    return false;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t at = i + plan.size.size() - n;
-    const double stretch = plan.to[i] - (i == 0 ? plan.from : plan.to[i - 1]);
-    if (plan.size[at] > stretch * (1 + 1e-9)) {
-      c.deck.fail(entry(size, at),
-                  fmt::format("{} is more than its stretch of {}", spoken(plan.size[at], dimension), spoken(stretch, dimension)),
-                  "a size that fits its stretch at least once");
-      return false;
-    }
-  }
-  if (planned_cells(plan) > most_cells) {
-    c.deck.fail(size,
-                fmt::format("makes {:.3g} cells along one axis", planned_cells(plan)),
-                "2e8 cells at most");
-    return false;
-  }
-  if (steepest_ratio(plan) > steepest_allowed) {
-    c.deck.fail(size,
-                fmt::format("neighbouring cells differ by a factor {:.2f}", steepest_ratio(plan)),
-                fmt::format("{:g} at most: a longer stretch or nearer sizes", steepest_allowed));
-    return false;
-  }
-  return true;
-}
-
-std::vector<double> equal_lines(double from, double to, int cells) {
-  std::vector<double> nodes;
-  for (int i = 0; i < cells; ++i) {
-    nodes.push_back(from + (to - from) * i / cells);
-  }
-  nodes.push_back(to);
-  return nodes;
-}
-
-std::vector<double> read_lines(Context c, const Section& in, double refine, Dimension dimension) {
-  DeckNode* to = in.node("to");
-  DeckNode* size = in.node("size");
-  DeckNode& self = in.self();
-  if (to == nullptr) {
-    c.deck.fail(
-        {self.place, self.key + ".to", "missing", "the high end, or a rising list of places"});
-  }
-  if ((size == nullptr) == (self.find("cells") == nullptr)) {
-    c.deck.fail({size == nullptr ? self.place : size->key_place,
-                 self.key + ".size",
-                 size == nullptr ? "missing" : "contradicts cells",
-                 "either `size` or `cells`"});
-    return {};
-  }
-  if (to == nullptr) {
-    return {};
-  }
-  AxisPlan plan{in.number("from"), {}, {}};
-  const auto places = places_of(c, *to, dimension, {});
-  const auto sizes = size != nullptr ? places_of(c, *size, dimension, positive()) : std::vector<double>{};
-  if (!places || !sizes || !in.has("from") || !check_rising(c, plan.from, *to, *places, dimension)) {
-    return {};
-  }
-  plan.to = *places;
-  for (const double s : *sizes) {
-    plan.size.push_back(s / refine);
-  }
-  if (size != nullptr) {
-    return check_sizes(c, plan, *size, dimension) ? mesh_lines(plan) : std::vector<double>{};
-  }
-  if (!in.has("cells")) {
-    return {};
-  }
-  if (in.integer("cells") * refine > most_cells || plan.to.size() > 1) {
-    c.deck.fail(*in.node("cells"),
-                "needs one place in `to`",
-                "2e8 cells at most, equal between `from` and `to`");
-    return {};
-  }
-  return equal_lines(plan.from, plan.to[0], static_cast<int>(std::max(1.0, std::round(in.integer("cells") * refine))));
-}
 
 void read_wall(Context c, const Section& in, Boundary& side) {
   if (DeckNode* velocity = in.node("velocity")) {
@@ -354,7 +225,7 @@ void read_mesh(Deck& deck,
     }
     const Dimension dimension = mesh_axis_dimension(scene.map, static_cast<int>(axis));
     const Section in = read_section(deck, *node, scene_keys::mesh_axis(dimension));
-    scene.mesh_lines[axis] = read_lines(c, in, refine, dimension);
+    scene.mesh_lines[axis] = read_lines(deck, in, refine, dimension);
     if (!check_mapped_axis(deck, *node, scene, static_cast<int>(axis))) {
       scene.mesh_lines[axis].clear();
     }

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
+#include "problems/layers_checkpoint.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -95,6 +96,7 @@ void write_checkpoint(const std::filesystem::path& path, const Scene<Dim>& scene
       out.put(mat + "tiles", tiles);
     }
   }
+  put_layers(out, scene.layers);
   out.commit();
 }
 
@@ -162,6 +164,7 @@ void read_checkpoint(const std::filesystem::path& path, Scene<Dim>& scene, Clock
     update_state(b, *scene.pool);
     update_traction(b, *scene.pool);
   }
+  get_layers(in, scene.layers);
 }
 
 template void write_checkpoint<2>(const std::filesystem::path&, const Scene<2>&, const Clock&, const RunMemory&);

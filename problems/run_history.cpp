@@ -19,13 +19,13 @@ template <int Dim> std::vector<int> RunSession<Dim>::bullet_slots() const {
   return out;
 }
 
-template <int Dim> EnergyAccount RunSession<Dim>::account(const Totals& t) const {
+template <int Dim> EnergyAccount RunSession<Dim>::account(const Totals& t, const LayerSums& layers) const {
   const Ledger& l = scene_.ledger;
   EnergyAccount a;
-  a.kinetic = t.kinetic_energy;
-  a.internal = t.internal();
+  a.kinetic = t.kinetic_energy + layers.kinetic;
+  a.internal = t.internal() + layers.internal;
   a.total = a.kinetic + a.internal;
-  a.known = l.boundary_work + l.ambient_work + l.void_work - l.remap_kinetic_loss - l.energy_out - l.sliver_energy;
+  a.known = l.boundary_work + l.ambient_work + l.void_work - l.remap_kinetic_loss - l.energy_out - l.sliver_energy - layers.lost;
   a.unaccounted = a.total - memory_.energy_start - a.known;
   return a;
 }
@@ -59,6 +59,8 @@ template <int Dim> std::vector<std::string> RunSession<Dim>::columns() const {
     c.emplace_back("target_energy_gain [J]");
     c.emplace_back("target_kinetic_energy [J]");
   }
+  const std::vector<std::string> layers = layers_.columns(scene_);
+  c.insert(c.end(), layers.begin(), layers.end());
   for (const Gauge& g : spec_.gauges) {
     for (const std::string& q : g.record) {
       std::string name = "gauge " + g.name + ": ";
@@ -80,11 +82,12 @@ template <int Dim> std::vector<std::string> RunSession<Dim>::columns() const {
 template <int Dim> std::vector<double> RunSession<Dim>::values() {
   const Block<Dim>& b = scene_.blocks[0];
   const Totals t = totals(b);
-  const EnergyAccount a = account(t);
+  const LayerSums layers = sum_layers(scene_.layers);
+  const EnergyAccount a = account(t, layers);
   peak_unaccounted_ = std::max(peak_unaccounted_, std::abs(a.unaccounted));
   std::vector<double> v = {clock_.dt, a.kinetic, a.internal, a.total, scene_.ledger.remap_kinetic_loss, a.unaccounted};
   for (std::size_t d = 0; d < Dim; ++d) {
-    v.push_back(t.momentum[d]);
+    v.push_back(t.momentum[d] + layers.momentum[d]);
   }
   for (std::size_t m = 0; m < b.materials.size(); ++m) {
     if (!b.materials[m].is_void) {
@@ -116,6 +119,8 @@ template <int Dim> std::vector<double> RunSession<Dim>::values() {
     v.push_back(t.internal_energy[slot] - memory_.results[slot]);
     v.push_back(kinetic_energy(b, static_cast<int>(slot)));
   }
+  const std::vector<double> stacks = layers_.add(scene_);
+  v.insert(v.end(), stacks.begin(), stacks.end());
   for (std::size_t q = 0; q < spec_.gauges.size(); ++q) {
     const Gauge& g = spec_.gauges[q];
     const std::array<double, 3> at = {memory_.gauges[3 * q], memory_.gauges[3 * q + 1], memory_.gauges[3 * q + 2]};
@@ -167,11 +172,11 @@ template <int Dim> std::vector<double> RunSession<Dim>::values() {
 }
 
 template std::vector<int> RunSession<2>::bullet_slots() const;
-template EnergyAccount RunSession<2>::account(const Totals&) const;
+template EnergyAccount RunSession<2>::account(const Totals&, const LayerSums&) const;
 template std::vector<std::string> RunSession<2>::columns() const;
 template std::vector<double> RunSession<2>::values();
 template std::vector<int> RunSession<3>::bullet_slots() const;
-template EnergyAccount RunSession<3>::account(const Totals&) const;
+template EnergyAccount RunSession<3>::account(const Totals&, const LayerSums&) const;
 template std::vector<std::string> RunSession<3>::columns() const;
 template std::vector<double> RunSession<3>::values();
 

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/io/summary.hpp"
 #include "problems/commands.hpp"
+#include "problems/layers_dump.hpp"
 #include "problems/run_dump.hpp"
 
 #include <algorithm>
@@ -36,14 +37,14 @@ double seconds_since(std::chrono::steady_clock::time_point t) {
 template <int Dim>
 RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& dir, int threads, const std::string& restart, const ExactSolver& exact)
     : read_(read), spec_(read.scene), dir_(dir), scene_(build_scene<Dim>(read.scene, threads)), slots_(slot_map(read.scene)),
-      restarted_(!restart.empty()), terminal_(isatty(STDOUT_FILENO) != 0), lateral_(read.scene) {
+      restarted_(!restart.empty()), terminal_(isatty(STDOUT_FILENO) != 0), lateral_(read.scene), layers_(read.scene) {
   clock_.end_time = spec_.end_time;
   memory_.deck_hash = deck_hash(read);
   if (restarted_) {
     read_checkpoint(restart, scene_, clock_, memory_);
     const auto& o = memory_.observed;
     const std::size_t lateral_at = 5 + 4 * spec_.gauges.size();
-    if (o.size() != lateral_at + lateral_.memory().size()) {
+    if (o.size() != lateral_at + lateral_.memory().size() + layers_.memory().size()) {
       throw Error(restart + ": the state of a failed run, kept for inspection; restart from a checkpoint.h5 before it");
     }
     dt_min_ = o.at(0);
@@ -55,12 +56,17 @@ RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& 
       gauge_peaks_.push_back(o.at(5 + 4 * q));
       gauge_velocity_.push_back({o.at(6 + 4 * q), o.at(7 + 4 * q), o.at(8 + 4 * q)});
     }
-    lateral_.recall(std::span(o).subspan(lateral_at));
+    const std::size_t layers_at = lateral_at + lateral_.recall(std::span(o).subspan(lateral_at));
+    layers_.recall(std::span(o).subspan(layers_at));
   } else {
     const Totals t = totals(scene_.blocks[0]);
-    memory_.energy_start = t.internal() + t.kinetic_energy;
+    const LayerSums layers = sum_layers(scene_.layers);
+    memory_.energy_start = t.internal() + t.kinetic_energy + layers.kinetic + layers.internal;
     memory_.mass_start = t.mass;
     memory_.momentum_start = t.momentum;
+    for (std::size_t d = 0; d < 3; ++d) {
+      memory_.momentum_start[d] += layers.momentum[d];
+    }
     memory_.results = t.internal_energy;
     for (const Gauge& g : spec_.gauges) {
       memory_.gauges.insert(memory_.gauges.end(), g.at.begin(), g.at.end());
@@ -89,7 +95,14 @@ template <int Dim> void RunSession<Dim>::dump() {
   for (const Block<Dim>& b : scene_.blocks) {
     dumps.push_back(dump_block(b, scene_.numerics.normal, spec_.output.fields));
   }
-  series_->write(clock_.time, series_->next_index(), dumps);
+  const std::vector<std::string> names = dumps.front().material_names;
+  std::vector<const LayerStack<Dim>*> stacks;
+  for (const Layers<Dim>& l : scene_.layers) {
+    stacks.push_back(&l.stack);
+  }
+  const int index = series_->next_index();
+  series_->write(clock_.time, index, dumps, dump_layers<Dim>(stacks, names));
+  layers_.write_back_faces(scene_, dir_, index);
 }
 
 template <int Dim> void RunSession<Dim>::move_gauges() {
@@ -114,6 +127,8 @@ template <int Dim> void RunSession<Dim>::checkpoint() {
   }
   const std::vector<double> lateral = lateral_.memory();
   memory.observed.insert(memory.observed.end(), lateral.begin(), lateral.end());
+  const std::vector<double> layers = layers_.memory();
+  memory.observed.insert(memory.observed.end(), layers.begin(), layers.end());
   write_checkpoint(dir_ / "checkpoint.h5", scene_, clock_, memory);
   last_checkpoint_ = std::chrono::steady_clock::now();
 }
@@ -141,6 +156,7 @@ template <int Dim> bool RunSession<Dim>::record(const Scene<Dim>&, const Clock&)
   dt_min_ = clock_.limit.cause == DtCause::end ? dt_min_ : std::min(dt_min_, clock_.dt);
   dt_first_ = dt_first_ == 0 ? clock_.dt : dt_first_;
   move_gauges();
+  layers_.step(scene_);
   const bool end = clock_.done();
   if (spec_.output.history_every <= 0 || clock_.time >= memory_.next_history || end) {
     sample();
@@ -168,6 +184,7 @@ template <int Dim> int RunSession<Dim>::run() {
   std::signal(SIGTERM, on_signal);
   start_ = last_progress_ = last_checkpoint_ = std::chrono::steady_clock::now();
   if (!restarted_) {
+    layers_.step(scene_);
     sample();
     dump();
     memory_.next_history = spec_.output.history_every;

@@ -6,6 +6,7 @@
 #include "problems/exact_solution.hpp"
 #include "problems/run_checkpoint.hpp"
 #include "problems/run_attitude.hpp"
+#include "problems/run_layers.hpp"
 #include "problems/run_measure.hpp"
 #include "problems/scene_reader.hpp"
 
@@ -46,7 +47,7 @@ private:
   void summary(const std::string& ended, const std::string& message);
   std::vector<std::string> columns() const;
   std::vector<double> values();
-  EnergyAccount account(const Totals& totals) const;
+  EnergyAccount account(const Totals& totals, const LayerSums& layers) const;
   std::vector<int> bullet_slots() const;
 
   const ReadScene& read_;
@@ -66,6 +67,7 @@ private:
   std::vector<std::array<double, 3>> gauge_velocity_;
   double gauge_time_ = 0;
   LateralRecord lateral_;
+  LayersRecord<Dim> layers_;
   std::chrono::steady_clock::time_point start_, last_progress_, last_checkpoint_;
 };
 

@@ -15,7 +15,8 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
   using nlohmann::ordered_json;
   const Block<Dim>& b = scene_.blocks[0];
   const Totals t = totals(b);
-  const EnergyAccount a = account(t);
+  const LayerSums layers = sum_layers(scene_.layers);
+  const EnergyAccount a = account(t, layers);
   const Ledger& l = scene_.ledger;
   const double wall = seconds_since(start_);
   rusage usage{};
@@ -54,12 +55,22 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
     j["mass_kg"][b.materials[m].material.name] = {{"start", m0}, {"end", t.mass[m]}, {"left_block", out}, {"relative_error", error},
                                                   {"internal_energy_gain_J", t.internal_energy[m] - memory_.results[m]}};
   }
-  j["momentum_kg_m_per_s"] = {{"start", memory_.momentum_start}, {"end", t.momentum}, {"left_block", l.momentum_out}};
+  std::array<double, 3> momentum = t.momentum;
+  for (std::size_t d = 0; d < 3; ++d) {
+    momentum[d] += layers.momentum[d];
+  }
+  j["momentum_kg_m_per_s"] = {{"start", memory_.momentum_start}, {"end", momentum}, {"left_block", l.momentum_out}};
+  if (!scene_.layers.empty()) {
+    j["momentum_kg_m_per_s"]["given_by_edges_of_layers"] = layers.edge_impulse;
+  }
   j["energy_J"] = {{"start", memory_.energy_start}, {"end_total", a.total}, {"end_kinetic", a.kinetic}, {"end_internal", a.internal},
                    {"boundary_work", l.boundary_work}, {"ambient_work", l.ambient_work}, {"void_work", l.void_work},
                    {"remap_kinetic_loss", l.remap_kinetic_loss}, {"remap_kinetic_returned_to_heat", l.remap_kinetic_return},
                    {"sliding_impact", l.sliding_impact},
                    {"left_block", l.energy_out}, {"slivers", l.sliver_energy}, {"unaccounted", a.unaccounted}};
+  if (!scene_.layers.empty()) {
+    j["energy_J"]["lost_by_layers"] = layers.lost; // in contact, to edges and where their step changed
+  }
   const double energy_scale = std::max(std::abs(memory_.energy_start), 1e-300);
   j["conservation_errors"] = {{"mass_relative", mass_error},
                               {"energy_relative", a.unaccounted / energy_scale}, // but for what the remap lost: that is an entry of the ledger
@@ -88,6 +99,9 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
     j["results"]["target"] = {{"cavity_radius_largest_m", cavity_peak_},
                               {"internal_energy_gain_J", t.internal_energy[slot] - memory_.results[slot]},
                               {"kinetic_energy_J", kinetic_energy(b, static_cast<int>(slot))}};
+  }
+  if (!scene_.layers.empty()) {
+    j["results"]["layers"] = layers_.results(scene_);
   }
   for (std::size_t q = 0; q < spec_.gauges.size(); ++q) {
     j["results"]["gauges"][spec_.gauges[q].name] = {{"peak_pressure_Pa", gauge_peaks_[q]}};

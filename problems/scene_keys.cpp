@@ -52,7 +52,8 @@ const SectionSpec& top() {
        {.name = "gauge", .kind = tables, .doc = "points that record"},
        {.name = "output", .kind = table, .doc = "what is written and how often"},
        {.name = "results", .kind = table, .doc = "what summary.json reports of this scene"},
-       {.name = "layers", .kind = planned, .doc = "Lagrangian stacks with slidelines"}}};
+       {.name = "layers", .kind = tables, .doc = "stacks of fabric layers that stay Lagrangian and slide on each other"},
+       {.name = "fabrics", .kind = table, .doc = "overrides of named fabrics, and new ones"}}};
   return spec;
 }
 
@@ -259,6 +260,13 @@ std::string reference() {
                               &boundary(),
                               &motion(),
                               &material(),
+                              &layers(),
+                              &fabric(),
+                              &yarns(),
+                              &transverse(),
+                              &shear(),
+                              &solid(),
+                              &rate(),
                               &numerics(),
                               &gauge(),
                               &output(),

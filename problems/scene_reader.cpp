@@ -334,6 +334,7 @@ SceneSpec read_scene(Deck& deck) {
     if (DeckNode* results = top.node("results")) {
       read_results(deck, *results, scene);
     }
+    read_layers(deck, top.node("layers"), top.node("fabrics"), scene);
   }
   if (DeckNode* numerics = usable(root, "numerics")) {
     read_numerics(deck, *numerics, scene);

@@ -99,6 +99,9 @@ void read_motion(Deck& deck, DeckNode& node, Motion& motion);
 /// What a following mesh goes with, once there are bodies; its outer sides along that way must let matter through.
 void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene);
 
+/// All [[layers]], after bodies and results: they lie behind their front as the shot goes. `fabrics`: [fabrics], or null.
+void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, SceneSpec& scene);
+
 /// [mesh] with lines and boundaries.
 void read_mesh(Deck& deck,
                DeckNode& mesh,

@@ -1,5 +1,6 @@
 #include "problems/scene_report.hpp"
 
+#include "problems/layers_report.hpp"
 #include "problems/mapped_fractions.hpp"
 
 #include <algorithm>
@@ -274,7 +275,7 @@ std::string scene_table(const SceneSpec& scene) {
                                 scene.end_time * 1e6,
                                 scene.ambient_pressure,
                                 scene.ambient_temperature);
-  out += mesh_table(scene) + material_table(scene) + body_table(scene) + numerics_line(scene);
+  out += mesh_table(scene) + material_table(scene) + body_table(scene) + layers_table(scene) + numerics_line(scene);
   for (const Gauge& g : scene.gauges) {
     out += fmt::format("gauge \"{}\" at ({:g}, {:g}, {:g}) m, {}\n",
                        g.name,

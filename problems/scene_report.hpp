@@ -29,7 +29,7 @@ struct Cost {
 };
 Cost estimated_cost(const SceneSpec& scene);
 
-/// Several tables: geometry, mesh and boundaries, materials, bodies, gauges, numerics.
+/// Several tables: geometry, mesh and boundaries, materials, bodies, layers, gauges, numerics.
 std::string scene_table(const SceneSpec& scene);
 
 } // namespace ballast

@@ -6,6 +6,7 @@
 #include "core/mesh_map.hpp"
 #include "core/units.hpp"
 #include "materials/material.hpp"
+#include "problems/layers_spec.hpp"
 #include "problems/shapes.hpp"
 
 #include <array>
@@ -109,6 +110,7 @@ struct SceneSpec {
   std::vector<Gauge> gauges;
   Output output;
   Results results;
+  std::vector<LayersSpec> layers;
 };
 
 /// Names a deck may list under gauge.record and output.fields.

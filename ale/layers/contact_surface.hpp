@@ -17,7 +17,8 @@ template <int Dim> struct ContactSurface {
   std::array<double*, Dim> velocity{};           ///< m/s; contact changes it
   const double* mass = nullptr;                  ///< kg, > 0; around an axis of the whole ring, impulses are then a ring's
   std::array<const double*, Dim> velocity_n{};   ///< m/s, at the step's start, where nodes move by the mean of both; else none
-  std::array<const double*, Dim> force{};        ///< N, already in `velocity` as dt force/mass (leapfrog); for the energy account; or none
+  std::array<const double*, Dim> force{};        ///< N, already in `velocity` as (dt + step_before)/2 force/mass (leapfrog); for the energy account; or none
+  double step_before = 0;                        ///< s: 0: as this step
   double weight = 1, weight_n = 0;               ///< a node moves by dt (weight velocity + weight_n velocity_n): 1/2, 1/2 where the mean moves it
   double rim = 0.1;                              ///< of a segment: so far past an outer edge its continuation still touches
   int outside = 1;                               ///< 1 or -1
@@ -47,7 +48,8 @@ template <int Dim> struct ContactSurface {
   }
   /// Velocity with which a node's forces, and contact, do their work in the mean with the new one; `before`: before contact, m/s.
   double old_velocity(std::size_t d, int node, double dt, double before) const {
-    return velocity_n[d] != nullptr ? velocity_n[d][node] : force[d] != nullptr ? before - dt * force[d][node] / mass[node] : before;
+    const double acted = step_before > 0 ? 0.5 * (dt + step_before) : dt;
+    return velocity_n[d] != nullptr ? velocity_n[d][node] : force[d] != nullptr ? before - acted * force[d][node] / mass[node] : before;
   }
   /// 1/kg; 0 along an axis that holds the node.
   double inverse_mass(int node, int axis) const { return held != nullptr && (held[node] >> axis & 1) != 0 ? 0.0 : 1 / mass[node]; }

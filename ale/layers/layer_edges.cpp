@@ -66,9 +66,8 @@ template <int Dim, class Body> void for_elements_of(const LayerStack<Dim>& s, in
 template <int Dim> void stop(LayerStack<Dim>& s, std::size_t n, std::size_t d, double half, LayerLedger& ledger) {
   const double unheld = s.velocity[d][n], old = unheld - half * s.force[d][n] / s.mass[n];
   ledger.edge_impulse[d] -= s.mass[n] * unheld;
-  ledger.edge_loss += 0.5 * s.mass[n] * old * unheld;
+  ledger.edge_loss += 0.5 * s.mass[n] * old * old;
   s.velocity[d][n] = 0;
-  s.mean_velocity[d][n] = 0.5 * old;
 }
 
 /// A component is stopped once though edges may share the node: the second time it finds nothing to stop.
@@ -76,6 +75,21 @@ template <int Dim> void hold(LayerStack<Dim>& s, std::size_t n, std::size_t d, d
   if (s.velocity[d][n] != 0) {
     stop(s, n, d, half, ledger);
   }
+}
+
+/// Calls body(node, axis, force) for the springs of elastic edges, in order.
+template <int Dim, class Body> void for_springs(const LayerStack<Dim>& s, Body body) {
+  for_edges(s, [&](int axis, int side, LayerEdge kind) {
+    if (kind != LayerEdge::elastic) {
+      return;
+    }
+    for_edge(s, axis, side, [&](std::size_t n, int i, int j, int plane) {
+      const double k = spring(s, axis, i, j, plane);
+      for (std::size_t d = 0; d + 1 < Dim; ++d) {
+        body(n, d, -k * (s.position[d][n] - s.rest[d][n]));
+      }
+    });
+  });
 }
 
 } // namespace
@@ -108,22 +122,37 @@ template <int Dim> void hold_edges(LayerStack<Dim>& s, double half, LayerLedger&
       }
     });
   });
-  // Springs after the held edges: at a corner the velocity of both is the held one.
-  for_edges(s, [&](int axis, int side, LayerEdge kind) {
-    if (kind != LayerEdge::elastic) {
-      return;
-    }
-    for_edge(s, axis, side, [&](std::size_t n, int i, int j, int plane) {
-      const double k = spring(s, axis, i, j, plane);
-      for (std::size_t d = 0; d + 1 < Dim; ++d) {
-        const double f = -k * (s.position[d][n] - s.rest[d][n]);
-        ledger.edge_work -= half * f * s.mean_velocity[d][n];
-        ledger.edge_impulse[d] += half * f;
-      }
-    });
-  });
+  for_springs(s, [&](std::size_t, std::size_t d, double f) { ledger.edge_impulse[d] += half * f; });
 }
 
+template <int Dim> void book_springs(const LayerStack<Dim>& s, double half, LayerLedger& ledger) {
+  for_springs(s, [&](std::size_t n, std::size_t d, double f) { ledger.edge_work -= half * f * s.velocity[d][n]; });
+}
+
+template <int Dim> std::vector<unsigned char> held_nodes(const LayerStack<Dim>& stack) {
+  constexpr unsigned all = (1U << Dim) - 1;
+  const int n = stack.grid.nodes_along(0), rows = Dim == 3 ? stack.grid.nodes_along(1) : 1;
+  std::vector<unsigned char> held(static_cast<std::size_t>(n * rows), 0);
+  for (int axis = 0; axis < Dim - 1; ++axis) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const LayerEdge edge = stack.edge[static_cast<std::size_t>(axis)][side];
+      const unsigned bits = edge == LayerEdge::symmetry ? 1U << axis : edge == LayerEdge::fixed ? all : 0U;
+      const int at = side == 0 ? 0 : stack.grid.elements[static_cast<std::size_t>(axis)];
+      for (int j = 0; j < rows; ++j) {
+        for (int i = 0; i < n; ++i) {
+          unsigned char& node = held[static_cast<std::size_t>(j * n + i)];
+          node = static_cast<unsigned char>(node | ((axis == 0 ? i : j) == at ? bits : 0U));
+        }
+      }
+    }
+  }
+  return held;
+}
+
+template std::vector<unsigned char> held_nodes<2>(const LayerStack<2>&);
+template std::vector<unsigned char> held_nodes<3>(const LayerStack<3>&);
+template void book_springs<2>(const LayerStack<2>&, double, LayerLedger&);
+template void book_springs<3>(const LayerStack<3>&, double, LayerLedger&);
 template void add_edge_forces<2>(LayerStack<2>&);
 template void add_edge_forces<3>(LayerStack<3>&);
 template void hold_edges<2>(LayerStack<2>&, double, LayerLedger&);

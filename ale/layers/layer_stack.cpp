@@ -101,7 +101,7 @@ bool wants_rate(const FabricModel& model) {
 template <int Dim> void allocate(LayerStack<Dim>& s) {
   const std::size_t nodes = s.node(0, 0, s.grid.planes()), elements = s.element(0, 0, s.grid.levels());
   for (std::size_t d = 0; d < Dim; ++d) {
-    for (auto* field : {&s.rest, &s.position, &s.velocity, &s.force, &s.mean_velocity}) {
+    for (auto* field : {&s.rest, &s.position, &s.velocity, &s.force, &s.kept_velocity}) {
       (*field)[d].assign(nodes, 0.0);
     }
   }

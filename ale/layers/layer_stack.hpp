@@ -83,9 +83,10 @@ template <int Dim> struct LayerStack {
   // Rows of elements one after the other, in each all strains, i fastest: apart, as many streams would meet in one cache set.
   std::vector<double> stress_volume;    ///< J: stress of each strain times the volume at rest
   std::vector<double> hourglass_volume; ///< J: likewise
-  std::array<std::vector<double>, Dim> mean_velocity;                ///< of the last half kick, m/s
+  std::array<std::vector<double>, Dim> kept_velocity;                ///< before contact, m/s: for the account
   std::array<std::array<std::vector<double>, 2>, 2> rate;            ///< [point][warp, fill] smoothed dE/dt, 1/s; empty unless the law wants it
   double rate_time = 1e-6;                                           ///< s: over which it is smoothed
+  double step = 0;                                                   ///< s: the last one, 0 at the start
 
   bool three_d() const { return Dim == 3; }
   std::size_t node(int i, int j, int plane) const {
@@ -108,7 +109,7 @@ template <int Dim> struct LayerStack {
 /// What a stack gained and lost, from its start. J, kg m/s.
 struct LayerLedger {
   double edge_work = 0;          ///< energy stored in elastic edges
-  double contact_loss = 0;       ///< kinetic energy lost in impacts of surfaces (slidelines and blocks)
+  double contact_loss = 0;       ///< kinetic energy lost in impacts of surfaces (slidelines and blocks): ale/layers/layer_account
   double friction_loss = 0;      ///< of that, by friction
   double eroded_energy = 0;      ///< internal energy of eroded elements: they keep it
   std::array<double, 3> edge_impulse = {0, 0, 0}; ///< given to the stack by held edges
@@ -116,6 +117,7 @@ struct LayerLedger {
   long crushed = 0;              ///< element-steps whose volume fell below a twentieth of that at rest
   double deepest = 0;            ///< m: largest penetration of neighbouring layers seen
   double edge_loss = 0;          ///< kinetic energy of nodes that a held edge stopped at the start
+  double step_change = 0;        ///< what the account's kinetic energy lost where a step was longer than the one before
 };
 
 /// What a stack is made of.

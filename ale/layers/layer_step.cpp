@@ -1,55 +1,28 @@
 #include "ale/layers/layer_step.hpp"
 
+#include "ale/layers/layer_account.hpp"
 #include "ale/layers/layer_edges.hpp"
-#include "ale/layers/layer_rows.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace ballast {
 namespace {
 
-using namespace layer_element;
+constexpr double least_radius = 0.01; ///< of that at rest: a ring that closes has met itself
 
 template <int Dim> void accelerate(LayerStack<Dim>& s, double half, ThreadPool& pool) {
   parallel_ranges(pool, static_cast<int>(s.node_count()), [&](int begin, int end, int) {
     const double* mass = s.mass.data();
     for (std::size_t d = 0; d < Dim; ++d) {
-      double *v = s.velocity[d].data(), *mean = s.mean_velocity[d].data();
+      double* v = s.velocity[d].data();
       const double* f = s.force[d].data();
 #pragma omp simd
       for (int n = begin; n < end; ++n) {
-        const double old = v[n], gained = half * f[n] / mass[n];
-        v[n] = old + gained;
-        mean[n] = old + 0.5 * gained;
+        v[n] += half * f[n] / mass[n];
       }
     }
   });
-}
-
-/// Work of the elements' stresses at the mean velocity over `half`.
-template <int Dim> void book_row(LayerStack<Dim>& s, int j, int level, double half) {
-  const RowSizes sizes = row_sizes(s, j, level);
-  const std::size_t first = s.element(0, j, level);
-  const auto x = node_rows(s, s.position, j, level), v = node_rows(s, s.mean_velocity, j, level);
-  const auto Q = element_rows<Count<Dim>::strains>(s, s.stress_volume, j, level);
-  const auto H = element_rows<Count<Dim>::hourglass>(s, s.hourglass_volume, j, level);
-  double *energy = s.energy.data() + first, *hourglass = s.hourglass_energy.data() + first;
-#pragma GCC ivdep
-  for (int i = 0; i < sizes.count; ++i) {
-    const Gradients a = sizes.gradients(i, Dim == 3);
-    const Modes<Dim> c = modes_at(x, i), c_rate = modes_at(v, i);
-    const Strains<Dim> rate = strain_form(c, c_rate, a);
-    const Hourglass<Dim> held = hourglass_form(c, c_rate, a);
-    double power = 0, held_power = 0;
-    for (std::size_t k = 0; k < rate.size(); ++k) {
-      power += Q[k][i] * rate[k];
-    }
-    for (std::size_t k = 0; k < held.size(); ++k) {
-      held_power += H[k][i] * held[k];
-    }
-    energy[i] += half * power;
-    hourglass[i] += half * held_power;
-  }
 }
 
 } // namespace
@@ -73,12 +46,6 @@ template <int Dim> LayerTimestep stable_step(const LayerStack<Dim>& s, double cf
 template <int Dim> void kick(LayerStack<Dim>& s, double half, LayerLedger& ledger, ThreadPool& pool) {
   accelerate(s, half, pool);
   hold_edges(s, half, ledger);
-  const int rows = s.grid.levels() * s.grid.elements[1];
-  parallel_ranges(pool, rows, [&](int begin, int end, int) {
-    for (int row = begin; row < end; ++row) {
-      book_row(s, row % s.grid.elements[1], row / s.grid.elements[1], half);
-    }
-  });
 }
 
 template <int Dim> void drift(LayerStack<Dim>& s, double dt, ThreadPool& pool) {
@@ -94,14 +61,33 @@ template <int Dim> void drift(LayerStack<Dim>& s, double dt, ThreadPool& pool) {
   });
 }
 
+template <int Dim> void stop_at_axis(LayerStack<Dim>& s, double dt) {
+  if (!s.axisymmetric) {
+    return;
+  }
+  for (std::size_t n = 0; n < s.node_count(); ++n) {
+    const double least = least_radius * s.rest[0][n], r = s.position[0][n];
+    double& v = s.velocity[0][n];
+    if (v < 0 && r + dt * v < least) {
+      v = std::min(0.0, (least - r) / dt);
+    }
+  }
+}
+
 template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact) {
   kick(s, dt / 2, ledger, pool);
+  keep_velocity(s);
   if (contact) {
     contact();
   }
+  stop_at_axis(s, dt);
+  book_contact(s, dt, ledger, pool);
+  book_work(s, dt / 2, ledger, pool);
   drift(s, dt, pool);
   update_forces(s, dt, ledger, pool);
+  book_work(s, dt / 2, ledger, pool);
   kick(s, dt / 2, ledger, pool);
+  s.step = dt;
 }
 
 template <int Dim> LayerTotals totals(const LayerStack<Dim>& s) {
@@ -125,6 +111,7 @@ template <int Dim> LayerTotals totals(const LayerStack<Dim>& s) {
       t.angular_momentum[d] += m * (x[a] * v[b] - x[b] * v[a]);
     }
   }
+  t.leapfrog_kinetic = leapfrog_kinetic(s);
   for (std::size_t e = 0; e < s.element_count(); ++e) {
     t.internal += s.energy[e];
     t.hourglass += s.hourglass_energy[e];
@@ -138,6 +125,8 @@ template void kick<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&);
 template void kick<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&);
 template void drift<2>(LayerStack<2>&, double, ThreadPool&);
 template void drift<3>(LayerStack<3>&, double, ThreadPool&);
+template void stop_at_axis<2>(LayerStack<2>&, double);
+template void stop_at_axis<3>(LayerStack<3>&, double);
 template void substep<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&);
 template void substep<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&);
 template LayerTotals totals<2>(const LayerStack<2>&);

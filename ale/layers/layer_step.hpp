@@ -4,8 +4,9 @@
 //   drift  x += dt v_half
 //   update_forces (ale/layers/layer_forces)
 //   kick   v = v_half + dt/2 f/m
-// Each kick books -f.(v before + v after)/2 dt/2 of each element's corner forces as its work, so kinetic + energy +
-// hourglass_energy + edge_work + edge_loss (+ what contact books) keeps to round-off at any step size.
+// Work is booked at v_half after contact with the forces at both ends of the drift (ale/layers/layer_account):
+// leapfrog_kinetic + internal + hourglass of the totals and edge_work + edge_loss + contact_loss + step_change of the ledger keep to
+// round-off for any steps. Positions and velocities are those of velocity Verlet; only the account is that of leapfrog.
 #pragma once
 
 #include "ale/layers/layer_forces.hpp"
@@ -26,19 +27,26 @@ struct LayerTimestep {
 /// lagging hourglass viscosity feeds the fastest of them: seen after ten thousand steps of strong noise at 0.8, not at 0.7.
 template <int Dim> LayerTimestep stable_step(const LayerStack<Dim>& stack, double cfl = 0.7);
 
-/// Half a kick: velocities by half (s) of force/mass, edges held, the elements' work booked.
+/// Half a kick: velocities by half (s) of force/mass, edges held and their impulse booked.
 template <int Dim> void kick(LayerStack<Dim>& stack, double half, LayerLedger& ledger, ThreadPool& pool);
 
 /// x += dt v.
 template <int Dim> void drift(LayerStack<Dim>& stack, double dt, ThreadPool& pool);
+
+/// Around an axis: rings do not pass it. Takes the inward velocity that would bring a node below a hundredth of its radius in the step:
+/// where cloth has no strength when pressed in its plane nothing else does, and elements would turn inside out. An impact: contact_loss.
+template <int Dim> void stop_at_axis(LayerStack<Dim>& stack, double dt);
 
 /// One step of all phases; contact() is called between the first kick and the drift.
 template <int Dim> void substep(LayerStack<Dim>& stack, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact = {});
 
 /// Sums over nodes and elements, in their order. Around an axis momentum is along it only, and has no moment.
 struct LayerTotals {
-  double mass = 0, kinetic = 0, internal = 0, hourglass = 0;
+  double mass = 0;
+  double kinetic = 0;                 ///< J: m v^2/2 of the velocities at the time of the positions
+  double internal = 0, hourglass = 0; ///< J: work of the elements' stresses; of their stabilisation, its viscous heat too
   std::array<double, 3> momentum = {}, angular_momentum = {}; ///< in a plane the moment stands in [2]
+  double leapfrog_kinetic = 0;        ///< J: that of the account (ale/layers/layer_account); (step x frequency)^2/4 of a wave's energy away from `kinetic`
   /// Of internal energy: to be below 5 %.
   double hourglass_share() const { return internal > 0 ? hourglass / internal : 0.0; }
 };

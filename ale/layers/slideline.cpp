@@ -28,26 +28,6 @@ template <int Dim> double layer_thickness(const LayerStack<Dim>& stack, int laye
 
 } // namespace
 
-template <int Dim> std::vector<unsigned char> held_nodes(const LayerStack<Dim>& stack) {
-  constexpr unsigned all = (1U << Dim) - 1;
-  const int n = stack.grid.nodes_along(0), rows = Dim == 3 ? stack.grid.nodes_along(1) : 1;
-  std::vector<unsigned char> held(static_cast<std::size_t>(n * rows), 0);
-  for (int axis = 0; axis < Dim - 1; ++axis) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      const LayerEdge edge = stack.edge[static_cast<std::size_t>(axis)][side];
-      const unsigned bits = edge == LayerEdge::symmetry ? 1U << axis : edge == LayerEdge::fixed ? all : 0U;
-      const int at = side == 0 ? 0 : stack.grid.elements[static_cast<std::size_t>(axis)];
-      for (int j = 0; j < rows; ++j) {
-        for (int i = 0; i < n; ++i) {
-          unsigned char& node = held[static_cast<std::size_t>(j * n + i)];
-          node = static_cast<unsigned char>(node | ((axis == 0 ? i : j) == at ? bits : 0U));
-        }
-      }
-    }
-  }
-  return held;
-}
-
 template <int Dim>
 ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held) {
   const LayerGrid& g = stack.grid;
@@ -60,6 +40,7 @@ ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Di
     s.velocity[d] = velocity[d].data() + first;
     s.force[d] = stack.force[d].data() + first;
   }
+  s.step_before = stack.step;
   s.mass = stack.mass.data() + first;
   s.outside = upper ? 1 : -1;
   s.rim = layer_rim;
@@ -119,7 +100,6 @@ SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, Laye
 }
 
 #define BALLAST_INSTANTIATE(D)                                                                                                   \
-  template std::vector<unsigned char> held_nodes<D>(const LayerStack<D>&);                                                       \
   template ContactSurface<D> layer_surface<D>(const LayerStack<D>&, LayerVelocity<D>&, int, bool, const std::vector<unsigned char>&); \
   template SlidelineReport resolve_slidelines<D>(const LayerStack<D>&, double, LayerVelocity<D>&, ThreadPool&, const ContactSettings&, SlidelineState<D>&);
 BALLAST_INSTANTIATE(2)

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "ale/layers/contact.hpp"
+#include "ale/layers/layer_edges.hpp"
 #include "ale/layers/layer_stack.hpp"
 
 #include <type_traits>
@@ -31,11 +32,9 @@ struct SlidelineReport {
 template <int Dim>
 ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held);
 
-/// By node of a plane: axes along which the stack's edges let it have no velocity.
-template <int Dim> std::vector<unsigned char> held_nodes(const LayerStack<Dim>& stack);
-
 /// Changes `velocity` (v + dt/2 a with a = force/mass, of all nodes) so that x + dt velocity has no layer inside its neighbour. A new `state`
-/// takes every node to stand over the same node of its neighbour. Losses are those of a ledger whose stresses work -dt velocity.(force + next force)/2.
+/// takes every node to stand over the same node of its neighbour. Losses are those of the layers' account
+/// (ale/layers/layer_account).
 /// Same bits for any number of threads.
 template <int Dim>
 SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, LayerVelocity<Dim>& velocity, ThreadPool& pool, const ContactSettings& settings,

@@ -20,7 +20,9 @@
 #include <vtkStringArray.h>
 #include <vtkStructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLStructuredGridWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
 #include "core/error.hpp"
 #include "core/io/summary.hpp"
@@ -30,7 +32,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void require_size(const GridDump& dump,
+template <class Dump>
+void require_size(const Dump& dump,
                   const std::string& what,
                   std::size_t found,
                   std::size_t expected) {
@@ -39,8 +42,9 @@ void require_size(const GridDump& dump,
         "dump of block '{}': {} has {} values, {} are needed", dump.block, what, found, expected));
 }
 
+template <class Dump>
 void add_arrays(vtkDataSetAttributes* data,
-                const GridDump& dump,
+                const Dump& dump,
                 const std::vector<GridDump::Array>& arrays,
                 std::size_t entities) {
   for (const GridDump::Array& array : arrays) {
@@ -66,12 +70,10 @@ void add_strings(vtkFieldData* data, const char* name, const std::vector<std::st
 }
 
 /// What a reader must know beside the arrays: geometry, symmetry, time and the materials' names.
-void add_facts(vtkDataSet* set, const GridDump& dump, double time) {
+template <class Dump> void add_facts(vtkDataSet* set, const Dump& dump, double time) {
   add_strings(set->GetFieldData(), "geometry", {dump.geometry});
   if (!dump.symmetry.empty())
     add_strings(set->GetFieldData(), "symmetry", dump.symmetry);
-  if (dump.section_layer > 0)
-    add_strings(set->GetFieldData(), "section_layer", {std::to_string(dump.section_layer)});
   if (!dump.material_names.empty())
     add_strings(set->GetFieldData(), "material_names", dump.material_names);
   vtkNew<vtkDoubleArray> when;
@@ -112,6 +114,8 @@ void write_grid(const fs::path& path, const GridDump& dump, double time) {
   add_arrays(grid->GetCellData(), dump, dump.cell_arrays, cells);
   add_arrays(grid->GetPointData(), dump, dump.point_arrays, nodes);
   add_facts(grid, dump, time);
+  if (dump.section_layer > 0)
+    add_strings(grid->GetFieldData(), "section_layer", {std::to_string(dump.section_layer)});
   vtkNew<vtkXMLStructuredGridWriter> writer;
   write_file(writer, grid, path);
 }
@@ -144,6 +148,33 @@ void write_polygons(const fs::path& path, const GridDump& dump, double time) {
   add_facts(set, dump, time);
   vtkNew<vtkXMLPolyDataWriter> writer;
   write_file(writer, set, path);
+}
+
+void write_elements(const fs::path& path, const ElementDump& dump, double time) {
+  if (dump.corners != 4 && dump.corners != 8)
+    throw Error(fmt::format("dump of block '{}': elements have 4 or 8 corners, not {}", dump.block, dump.corners));
+  const auto corners = static_cast<std::size_t>(dump.corners);
+  const std::size_t nodes = dump.points.size() / 3, count = dump.elements.size() / corners;
+  require_size(dump, "points", dump.points.size(), 3 * nodes);
+  require_size(dump, "elements", dump.elements.size(), corners * count);
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t e = 0; e < count; ++e) {
+    cells->InsertNextCell(dump.corners);
+    for (std::size_t c = 0; c < corners; ++c) {
+      const int node = dump.elements[e * corners + c];
+      if (node < 0 || static_cast<std::size_t>(node) >= nodes)
+        throw Error(fmt::format("dump of block '{}': element {} has node {} of {}", dump.block, e, node, nodes));
+      cells->InsertCellPoint(node);
+    }
+  }
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(make_points(dump.points));
+  grid->SetCells(dump.corners == 8 ? VTK_HEXAHEDRON : VTK_QUAD, cells);
+  add_arrays(grid->GetCellData(), dump, dump.cell_arrays, count);
+  add_arrays(grid->GetPointData(), dump, dump.point_arrays, nodes);
+  add_facts(grid, dump, time);
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  write_file(writer, grid, path);
 }
 
 std::string xml_escaped(const std::string& text) {
@@ -203,7 +234,7 @@ int VtkSeries::next_index() const {
   return std::stoi(file.substr(stem_.size() + 1)) + 1;
 }
 
-void VtkSeries::write(double time, int index, const std::vector<GridDump>& dumps) {
+void VtkSeries::write(double time, int index, const std::vector<GridDump>& dumps, const std::vector<ElementDump>& elements) {
   const std::string name = fmt::format("{}_{:04d}", stem_, index);
   fs::create_directories(dir_ / name);
   std::string blocks;
@@ -222,6 +253,16 @@ void VtkSeries::write(double time, int index, const std::vector<GridDump>& dumps
           "      <DataSet index=\"1\" name=\"materials\" file=\"{}_materials.vtp\"/>\n", file);
     }
     blocks += "    </Block>\n";
+  }
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const std::string file = name + '/' + file_name(elements[e].block);
+    write_elements(dir_ / (file + ".vtu"), elements[e], time);
+    blocks += fmt::format("    <Block index=\"{}\" name=\"{}\">\n"
+                          "      <DataSet index=\"0\" name=\"elements\" file=\"{}.vtu\"/>\n"
+                          "    </Block>\n",
+                          dumps.size() + e,
+                          xml_escaped(elements[e].block),
+                          file);
   }
   write_text_atomically(
       dir_ / (name + ".vtm"),

@@ -1,10 +1,11 @@
 // The VTK time series of a run: stem.pvd -> stem_0000.vtm (named blocks) -> stem_0000/BLOCK.vts
-// with, where cells are mixed, stem_0000/BLOCK_materials.vtp. Inline binary with lz4; never
+// with, where cells are mixed, stem_0000/BLOCK_materials.vtp; of fabric layers stem_0000/STACK.vtu. Inline binary with lz4; never
 // appended XML (Debian's ParaView 5.11 reads no cells from it). Every file opens in ParaView.
 //
 // Names that post/report looks for: cell arrays "pressure" [Pa], "speed" [m/s] (cell or point) and
 // "material" (cell; the index into material_names of the material the cell is drawn as, -1 for
-// void). Polygons are drawn over the cells, so only mixed cells need them.
+// void). Polygons are drawn over the cells, so only mixed cells need them. Of an element dump in 3D pictures show
+// the lower face along j of the elements whose cell array "section" is 1, and "damage_warp", "damage_fill" [1].
 #pragma once
 
 #include <array>
@@ -42,6 +43,18 @@ struct GridDump {
   std::vector<std::string> material_names; // legend: names[material]
 };
 
+/// Elements of which some may be gone, at one time: quads (2D) or hexahedra, corners in VTK's order.
+struct ElementDump {
+  std::string block;
+  std::string geometry = "planar";         // planar | axisymmetric | 3d
+  std::vector<std::string> symmetry;       // as of GridDump
+  std::vector<double> points;              // 3 per node
+  int corners = 4;                         // of an element: 4 or 8
+  std::vector<int> elements;               // nodes of each, corners by corners
+  std::vector<GridDump::Array> cell_arrays, point_arrays;
+  std::vector<std::string> material_names; // legend: names[material]
+};
+
 /// One time of a series; `file` is relative to the folder of the .pvd.
 struct PvdEntry {
   double time;
@@ -62,9 +75,9 @@ public:
   /// Index after the last time of the series (0 when empty).
   int next_index() const;
 
-  /// Writes every block, the .vtm and, last, the .pvd. Throws Error on wrong array lengths (naming
+  /// Writes every block, then the elements, the .vtm and, last, the .pvd. Throws Error on wrong array lengths (naming
   /// block and array) and on files that cannot be written.
-  void write(double time, int index, const std::vector<GridDump>& dumps);
+  void write(double time, int index, const std::vector<GridDump>& dumps, const std::vector<ElementDump>& elements = {});
 
 private:
   void write_pvd() const;

@@ -9,9 +9,11 @@
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkStructuredGrid.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLMultiBlockDataReader.h>
 
 #include "core/error.hpp"
@@ -75,6 +77,54 @@ TEST(VtkSeries, GoesOnAfterRestart) {
   EXPECT_EQ(entries[2].time, 0.1 * 2);
   EXPECT_EQ(entries[3].time, 0.25);
   EXPECT_EQ(entries[3].file, "fields_0003.vtm");
+}
+
+/// Two quads side by side and the points of a third that is gone.
+ElementDump two_quads() {
+  ElementDump dump;
+  dump.block = "vest";
+  dump.geometry = "axisymmetric";
+  for (const double z : {0.0, 0.5})
+    for (const double r : {0.0, 1.0, 2.0, 3.0})
+      dump.points.insert(dump.points.end(), {r, z, 0});
+  dump.elements = {0, 1, 5, 4, 1, 2, 6, 5};
+  dump.cell_arrays = {{"damage_warp", 1, {0.5F, 0.25F}}};
+  dump.point_arrays = {{"velocity", 3, std::vector<float>(24, 3)}};
+  dump.material_names = {"lead", "vest"};
+  return dump;
+}
+
+TEST(VtkSeries, ElementsReadBackBesideBlocks) {
+  const TemporaryFolder folder;
+  VtkSeries(folder.path(), "fields").write(1e-6, 0, {synthetic::disc_dump(scene, 0)}, {two_quads()});
+  vtkNew<vtkXMLMultiBlockDataReader> reader;
+  reader->SetFileName((folder / "fields_0000.vtm").c_str());
+  reader->Update();
+  auto* root = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutput());
+  ASSERT_EQ(root->GetNumberOfBlocks(), 2U);
+  EXPECT_STREQ(root->GetMetaData(1U)->Get(vtkCompositeDataSet::NAME()), "vest");
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(vtkMultiBlockDataSet::SafeDownCast(root->GetBlock(1))->GetBlock(0));
+  ASSERT_TRUE(grid);
+  ASSERT_EQ(grid->GetNumberOfCells(), 2);
+  EXPECT_EQ(grid->GetNumberOfPoints(), 8);
+  EXPECT_EQ(grid->GetCellType(1), VTK_QUAD);
+  vtkNew<vtkIdList> corners;
+  grid->GetCellPoints(1, corners);
+  EXPECT_EQ(corners->GetId(2), 6);
+  EXPECT_EQ(grid->GetCellData()->GetArray("damage_warp")->GetTuple1(1), 0.25);
+  EXPECT_EQ(grid->GetPointData()->GetArray("velocity")->GetTuple3(7)[2], 3);
+}
+
+TEST(VtkSeries, RefusesElementsOfNodesThatAreNot) {
+  const TemporaryFolder folder;
+  ElementDump dump = two_quads();
+  dump.elements.back() = 8;
+  try {
+    VtkSeries(folder.path(), "fields").write(0, 0, {}, {dump});
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("element 1 has node 8 of 8"), std::string::npos) << error.what();
+  }
 }
 
 TEST(VtkSeries, NamesTheArrayOfWrongLength) {

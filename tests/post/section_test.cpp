@@ -53,6 +53,62 @@ TEST(Section, SolidIsMirroredWithItsInterfaces) {
   }
 }
 
+/// Two layers of one hexahedron each, 1 m wide and long, 0.5 m thick, the second behind y = 0 by one more.
+std::vector<io::ElementDump> two_layers() {
+  io::ElementDump dump;
+  dump.block = "vest";
+  dump.geometry = "3d";
+  dump.symmetry = {"x", "y"};
+  dump.corners = 8;
+  for (const double z : {0.0, 0.5, 1.0})
+    for (const double y : {0.0, 1.0, 2.0})
+      for (const double x : {0.0, 1.0})
+        dump.points.insert(dump.points.end(), {x, y, z});
+  const auto hexahedron = [&](int y, int z) {
+    for (const int up : {6 * z, 6 * z + 6})
+      for (const int n : {2 * y, 2 * y + 1, 2 * y + 3, 2 * y + 2})
+        dump.elements.push_back(up + n);
+  };
+  hexahedron(0, 0), hexahedron(0, 1), hexahedron(1, 1);
+  dump.cell_arrays = {{"material", 1, {2, 2, 2}},       {"speed", 1, {1, 2, 9}},         {"layer", 1, {0, 1, 1}},
+                      {"damage_warp", 1, {0.5F, 0, 9}}, {"damage_fill", 1, {0, 0.25F, 9}}, {"section", 1, {1, 1, 0}}};
+  dump.material_names = {"lead", "muscle", "vest"};
+  return {dump};
+}
+
+TEST(Section, LayersAreDrawnWhereTheyLayOnThePlane) {
+  const io::TemporaryFolder folder;
+  io::VtkSeries series(folder.path(), "fields");
+  series.write(0, 0, {}, two_layers());
+  const Section section = read_section(folder / "fields_0000.vtm", 0);
+  ASSERT_EQ(section.blocks.size(), 1U);
+  EXPECT_EQ(section.blocks[0].name, "vest");
+  ASSERT_EQ(section.blocks[0].cells.size(), 2U);
+  EXPECT_TRUE(section.mirrored);
+  const PlotArea area{{0, 0, 80, 40}, {-1, 1}, {0, 1}};
+  const SectionRaster raster = sample(section, area, section.mirrored);
+  const std::vector<bool> lines = interface_samples(raster);
+  const auto at = [&](double x, double z) { return raster.index(static_cast<int>((x + 1) * 40 * Canvas::fine), static_cast<int>((1 - z) * 40 * Canvas::fine)); };
+  for (const double x : {-0.5, 0.5}) {
+    EXPECT_EQ(raster.material[at(x, 0.25)], 2);
+    EXPECT_EQ(raster.damage[at(x, 0.25)], 0.5F);
+    EXPECT_EQ(raster.damage[at(x, 0.75)], 0.25F);
+    EXPECT_EQ(raster.speed[at(x, 0.75)], 2);
+    EXPECT_TRUE(lines[at(x, 0.5)]); // between the layers
+    EXPECT_FALSE(lines[at(x, 0.25)]);
+  }
+}
+
+TEST(Section, LayersTooThinToBeToldApartHaveNoLines) {
+  const io::TemporaryFolder folder;
+  io::VtkSeries series(folder.path(), "fields");
+  series.write(0, 0, {}, two_layers());
+  const Section section = read_section(folder / "fields_0000.vtm", 0);
+  const SectionRaster raster = sample(section, {{0, 0, 40, 4}, {-1, 1}, {0, 1}}, true);
+  for (const bool line : interface_samples(raster))
+    EXPECT_FALSE(line);
+}
+
 TEST(Section, SolidWithoutSymmetryInXIsNot) {
   io::GridDump dump = two_cells();
   dump.symmetry = {"y"};

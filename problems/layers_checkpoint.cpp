@@ -1,0 +1,176 @@
+#include "problems/layers_checkpoint.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+#include <type_traits>
+
+namespace ballast {
+
+namespace {
+
+/// Calls visit(key, values) for every array of a stack that the next step reads and nothing recomputes.
+template <int Dim, class Stack, class Visit> void visit_stack(Stack& s, const std::string& base, Visit&& visit) {
+  for (std::size_t d = 0; d < Dim; ++d) {
+    visit(base + fmt::format("position_{}", d), s.position[d]);
+    visit(base + fmt::format("velocity_{}", d), s.velocity[d]);
+    visit(base + fmt::format("force_{}", d), s.force[d]);
+  }
+  for (std::size_t point = 0; point < 2; ++point) {
+    for (std::size_t yarn = 0; yarn < 2; ++yarn) {
+      visit(base + fmt::format("largest_{}_{}", point, yarn), s.largest[point][yarn]);
+      visit(base + fmt::format("rate_{}_{}", point, yarn), s.rate[point][yarn]);
+    }
+  }
+  visit(base + "energy", s.energy);
+  visit(base + "hourglass_energy", s.hourglass_energy);
+  visit(base + "wave_step", s.wave_step);
+  visit(base + "alive", s.alive);
+  visit(base + "stress_volume", s.stress_volume);
+  visit(base + "hourglass_volume", s.hourglass_volume);
+}
+
+/// Likewise of the nodes' feet; arrays as long as what was seen.
+template <int Dim, class Track, class Visit> void visit_track(Track& t, const std::string& base, Visit&& visit) {
+  visit(base + "status", t.status);
+  visit(base + "segment", t.segment);
+  visit(base + "local", t.local);
+  visit(base + "gap", t.gap);
+  visit(base + "opening", t.opening);
+  visit(base + "leaves", t.leaves);
+  for (std::size_t d = 0; d < Dim; ++d) {
+    visit(base + fmt::format("normal_{}", d), t.normal[d]);
+  }
+  visit(base + "current", t.current);
+  visit(base + "moved", t.moved);
+}
+
+template <class T> std::vector<double> as_numbers(const std::vector<T>& values) {
+  std::vector<double> out;
+  for (const T& v : values) {
+    if constexpr (std::is_same_v<T, std::array<double, 2>>) {
+      out.insert(out.end(), v.begin(), v.end());
+    } else {
+      out.push_back(static_cast<double>(v));
+    }
+  }
+  return out;
+}
+
+template <class T> std::vector<T> from_numbers(const std::vector<double>& numbers) {
+  std::vector<T> out;
+  if constexpr (std::is_same_v<T, std::array<double, 2>>) {
+    for (std::size_t q = 0; q + 1 < numbers.size(); q += 2) {
+      out.push_back({numbers[q], numbers[q + 1]});
+    }
+  } else {
+    for (const double v : numbers) {
+      out.push_back(static_cast<T>(v));
+    }
+  }
+  return out;
+}
+
+template <int Dim> std::vector<double> pack(const Layers<Dim>& l) {
+  const LayerLedger& g = l.ledger;
+  return {g.edge_work, g.contact_loss, g.friction_loss, g.eroded_energy, g.edge_impulse[0], g.edge_impulse[1], g.edge_impulse[2],
+          static_cast<double>(g.eroded_elements), static_cast<double>(g.crushed), g.deepest, g.edge_loss, g.step_change, l.stack.step, l.closing,
+          static_cast<double>(l.steps), static_cast<double>(l.slidelines.steps), static_cast<double>(l.slidelines.pairs.size()), static_cast<double>(l.with_blocks.size())};
+}
+
+template <int Dim> void unpack(const std::vector<double>& v, Layers<Dim>& l) {
+  LayerLedger& g = l.ledger;
+  g.edge_work = v.at(0);
+  g.contact_loss = v.at(1);
+  g.friction_loss = v.at(2);
+  g.eroded_energy = v.at(3);
+  g.edge_impulse = {v.at(4), v.at(5), v.at(6)};
+  g.eroded_elements = static_cast<long>(v.at(7));
+  g.crushed = static_cast<long>(v.at(8));
+  g.deepest = v.at(9);
+  g.edge_loss = v.at(10);
+  g.step_change = v.at(11);
+  l.stack.step = v.at(12);
+  l.closing = v.at(13);
+  l.steps = static_cast<long>(v.at(14));
+  l.slidelines.steps = static_cast<long>(v.at(15));
+  l.slidelines.pairs.assign(static_cast<std::size_t>(v.at(16)), {});
+  l.with_blocks.assign(static_cast<std::size_t>(v.at(17)), {});
+}
+
+template <int Dim> void put_contact(io::CheckpointWriter& out, const std::string& base, const std::vector<ContactState<Dim>>& pairs) {
+  for (std::size_t q = 0; q < pairs.size(); ++q) {
+    const ContactState<Dim>& c = pairs[q];
+    const std::string at = base + fmt::format("{}/", q);
+    out.put(at + "state", std::vector<double>{c.travel, static_cast<double>(c.steps), c.taken});
+    for (std::size_t s = 0; s < 2; ++s) {
+      visit_track<Dim>(c.tracks[s], at + fmt::format("nodes_{}/", s), [&](const std::string& key, const auto& values) {
+        if (!values.empty()) {
+          out.put(key, as_numbers(values));
+        }
+      });
+    }
+  }
+}
+
+template <int Dim> void get_contact(const io::CheckpointReader& in, const std::string& base, std::vector<ContactState<Dim>>& pairs) {
+  for (std::size_t q = 0; q < pairs.size(); ++q) {
+    ContactState<Dim>& c = pairs[q];
+    const std::string at = base + fmt::format("{}/", q);
+    const std::vector<double> state = in.get_doubles(at + "state");
+    c.travel = state.at(0);
+    c.steps = static_cast<long>(state.at(1));
+    c.taken = state.at(2);
+    for (std::size_t s = 0; s < 2; ++s) {
+      visit_track<Dim>(c.tracks[s], at + fmt::format("nodes_{}/", s), [&]<class T>(const std::string& key, std::vector<T>& values) {
+        if (in.has(key)) {
+          values = from_numbers<T>(in.get_doubles(key));
+        }
+      });
+    }
+  }
+}
+
+} // namespace
+
+template <int Dim> void put_layers(io::CheckpointWriter& out, const std::vector<Layers<Dim>>& layers) {
+  for (std::size_t q = 0; q < layers.size(); ++q) {
+    const Layers<Dim>& l = layers[q];
+    const std::string base = fmt::format("layers_{}/", q);
+    out.put(base + "state", pack(l));
+    visit_stack<Dim>(l.stack, base, [&](const std::string& key, const auto& values) {
+      if (!values.empty()) {
+        out.put(key, as_numbers(values));
+      }
+    });
+    put_contact(out, base + "slideline_", l.slidelines.pairs);
+    put_contact(out, base + "with_block_", l.with_blocks);
+  }
+}
+
+template <int Dim> void get_layers(const io::CheckpointReader& in, std::vector<Layers<Dim>>& layers) {
+  for (std::size_t q = 0; q < layers.size(); ++q) {
+    Layers<Dim>& l = layers[q];
+    const std::string base = fmt::format("layers_{}/", q);
+    unpack(in.get_doubles(base + "state"), l);
+    visit_stack<Dim>(l.stack, base, [&]<class T>(const std::string& key, std::vector<T>& values) {
+      if (values.empty()) {
+        return;
+      }
+      const std::vector<double> numbers = in.get_doubles(key);
+      if (numbers.size() != values.size()) {
+        throw Error(fmt::format("{} of the checkpoint holds {} values, {} needs {}; restart with the deck that wrote it", key, numbers.size(), l.stack.name, values.size()));
+      }
+      values = from_numbers<T>(numbers);
+    });
+    get_contact(in, base + "slideline_", l.slidelines.pairs);
+    get_contact(in, base + "with_block_", l.with_blocks);
+  }
+}
+
+template void put_layers<2>(io::CheckpointWriter&, const std::vector<Layers<2>>&);
+template void put_layers<3>(io::CheckpointWriter&, const std::vector<Layers<3>>&);
+template void get_layers<2>(const io::CheckpointReader&, std::vector<Layers<2>>&);
+template void get_layers<3>(const io::CheckpointReader&, std::vector<Layers<3>>&);
+
+} // namespace ballast

@@ -1,0 +1,302 @@
+// [[layers]]: stacks of fabric layers.
+#include "problems/fabric_reader.hpp"
+#include "problems/line_reader.hpp"
+#include "problems/scene_keys.hpp"
+#include "problems/scene_reading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace ballast {
+namespace {
+
+struct Context {
+  Deck& deck;
+  const FabricBook& book;
+  SceneSpec& scene;
+  std::size_t dim() const { return static_cast<std::size_t>(dimensions(scene.geometry)); }
+  std::size_t across() const { return dim() - 1; } ///< axes in the plane of the layers; the last is the shot's
+};
+
+/// Does the mesh end at a plane of symmetry where this coordinate is 0?
+bool cut_at_zero(const SceneSpec& scene, std::size_t component) {
+  const auto dim = static_cast<std::size_t>(dimensions(scene.geometry));
+  for (std::size_t axis = 0; axis < dim; ++axis) {
+    for (std::size_t side = 0; side < 2 && !scene.mesh_lines[axis].empty(); ++side) {
+      Point q{};
+      for (std::size_t d = 0; d < dim; ++d) {
+        q[d] = scene.mesh_lines[d].empty() ? 0.0 : scene.mesh_lines[d].back();
+      }
+      q[axis] = side == 0 ? scene.mesh_lines[axis].front() : scene.mesh_lines[axis].back();
+      if (scene.boundaries[axis][side].kind == BoundaryKind::symmetry && normal_component(scene.map, static_cast<int>(axis), q[axis]) == static_cast<int>(component) &&
+          place(scene.map, q)[component] == 0) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Of the three only two are free; what is not given is that of `plies` plies of the fabric.
+bool read_weight(Context c, const Section& in, const FabricMaterial& fabric, LayersSpec& out) {
+  for (const char* key : {"areal_density", "thickness", "density", "plies"}) {
+    if (in.self().find(key) != nullptr && !in.has(key)) {
+      return false; // reported
+    }
+  }
+  const bool known = fabric.thickness > 0; // of a new fabric nothing is known of its plies
+  out.plies = in.has("plies") ? in.integer("plies") : known ? fabric.plies : out.layers;
+  const bool a = in.has("areal_density"), t = in.has("thickness"), d = in.has("density");
+  double areal = in.number("areal_density"), thickness = in.number("thickness"), rho = in.number("density");
+  if (!known && a + t + d < 2) {
+    c.deck.fail({in.self().place, in.self().key + ".thickness", fmt::format("missing; nothing is known of the plies of \"{}\"", out.fabric), "two of areal_density, thickness and density"});
+    return false;
+  }
+  const double share = known ? static_cast<double>(out.plies) / fabric.plies : 0.0;
+  if (!t) {
+    thickness = a && d ? areal / rho : share * fabric.thickness;
+  }
+  if (!a) {
+    areal = d ? rho * thickness : share * density(fabric.model) * fabric.thickness;
+  }
+  constexpr double printed = 1e-3; // four printed digits
+  if (d && std::abs(areal - rho * thickness) > printed * areal) {
+    c.deck.fail(*in.node("density"), fmt::format("{:g} kg/m3 contradicts areal_density over thickness: {:g} kg/m2 / {:g} m = {:g} kg/m3", rho, areal, thickness, areal / thickness),
+                "two of areal_density, thickness and density");
+    return false;
+  }
+  rho = d ? rho : areal / thickness;
+  std::visit([rho](auto& law) { law.density = rho; }, out.model);
+  out.thickness = thickness;
+  if (out.layers > out.plies) {
+    DeckNode& blame = *in.node(in.node("layers")->defaulted && in.has("plies") ? "plies" : "layers");
+    c.deck.fail(blame, fmt::format("{} layers of {} plies", out.layers, out.plies), "at most one layer a ply, or more `plies`");
+    return false;
+  }
+  return true;
+}
+
+/// "both" leaves warp along radii and fill along circles.
+void choose_yarns(Context c, const Section& in, LayersSpec& out) {
+  if (!in.has("yarns")) {
+    return;
+  }
+  auto* law = std::get_if<RaftenbergFabric>(&out.model);
+  if (c.scene.geometry != Geometry::axisymmetric || law == nullptr) {
+    c.deck.fail_key(*in.node("yarns"), law == nullptr ? "an isotropic fabric has no yarns" : fmt::format("in a {} scene yarns lie along the axes", name_of(c.scene.geometry)), "leave it out");
+    return;
+  }
+  const std::string yarns = in.text("yarns");
+  if (yarns == "warp") {
+    law->fill = law->warp;
+  } else if (yarns == "fill") {
+    law->warp = law->fill;
+  }
+}
+
+void check_fabric(Context c, const Section& in, const LayersSpec& out) {
+  try {
+    check(out.model, out.name);
+  } catch (const Error& error) {
+    c.deck.fail(*in.node("fabric"), error.what(), "another density, or constants that go with it");
+  }
+}
+
+/// Lines from the middle to the half width, mirrored where the stack is whole.
+bool read_plane(Context c, const Section& in, LayersSpec& out) {
+  if (!in.has("half_width") || !check_size_or_cells(c.deck, in)) {
+    return false;
+  }
+  LinePlaces places;
+  if (DeckNode* to = in.node("to")) {
+    places.to = read_places(c.deck, *to, Dimension::length, positive());
+    for (std::size_t i = 0; i < places.to.size(); ++i) {
+      places.nodes.push_back(&entry(*to, i));
+    }
+    if (places.to.empty()) {
+      return false;
+    }
+  }
+  places.to.push_back(in.number("half_width"));
+  places.nodes.push_back(in.node("half_width"));
+  const std::vector<double> half = lines_through(c.deck, in, places, in.number("refine", 1), Dimension::length);
+  for (std::size_t axis = 0; axis < c.across() && !half.empty(); ++axis) {
+    std::vector<double>& lines = out.lines[axis];
+    const bool cut = c.scene.geometry == Geometry::axisymmetric || cut_at_zero(c.scene, axis);
+    for (std::size_t i = half.size(); !cut && i-- > 1;) {
+      lines.push_back(-half[i]);
+    }
+    lines.insert(lines.end(), half.begin(), half.end());
+    out.edge[axis][0] = cut ? LayerEdge::symmetry : out.edge[axis][1];
+  }
+  return !half.empty();
+}
+
+void read_edges(Context c, const Section& in, LayersSpec& out) {
+  const std::string kind = in.text("edges", "free");
+  const LayerEdge edge = kind == "fixed" ? LayerEdge::fixed : kind == "elastic" ? LayerEdge::elastic : LayerEdge::free;
+  for (std::size_t axis = 0; axis < c.across(); ++axis) {
+    out.edge[axis] = {edge, edge};
+  }
+  out.edge_stiffness = in.number("edge_stiffness", 0);
+  if (edge == LayerEdge::elastic && in.self().find("edge_stiffness") == nullptr) {
+    c.deck.fail({in.self().place, in.self().key + ".edge_stiffness", "missing; elastic edges need it", "N/m for a metre of edge"});
+  } else if (edge != LayerEdge::elastic && in.has("edge_stiffness")) {
+    c.deck.fail_key(*in.node("edge_stiffness"), fmt::format("has no effect on {} edges", kind), "edges = \"elastic\", or leave it out");
+  }
+}
+
+void read_methods(Context c, const Section& in, LayersSpec& out) {
+  out.friction = in.number("friction", 0);
+  out.hourglass.stiffness = in.number("hourglass", out.hourglass.stiffness);
+  out.hourglass.viscosity = in.number("hourglass_viscosity", out.hourglass.viscosity);
+  out.cfl = in.number("cfl", out.cfl);
+  out.rate_time = in.number("rate_time", out.rate_time);
+  const auto* law = std::get_if<RaftenbergFabric>(&out.model);
+  if (in.has("rate_time") && (law == nullptr || !law->rate)) {
+    c.deck.fail_key(*in.node("rate_time"), fmt::format("{} has no rate factor", out.fabric), "a fabric with `rate`, or leave it out");
+  }
+  DeckNode* steps = in.node("subcycles");
+  if (steps == nullptr || (steps->is_text() && steps->text == "auto")) {
+    return;
+  }
+  constexpr KeyRange counts = {1, 10000};
+  if (!steps->is_number() || std::floor(steps->number) != steps->number || steps->number < counts.lo || steps->number > counts.hi) {
+    c.deck.fail(*steps, steps->is_number() ? fmt::format("{:g} steps to one of the mesh", steps->number) : fmt::format("{} is not wanted here", describe(*steps)), "\"auto\", or a whole number from 1 to 10000");
+    return;
+  }
+  out.subcycles = static_cast<int>(steps->number);
+}
+
+/// Place of the stack at rest.
+Bounds extent(Context c, const LayersSpec& out) {
+  Bounds b;
+  b.lo[2] = -1, b.hi[2] = 1; // of a 2D scene, which sees the section at 0
+  for (std::size_t axis = 0; axis < c.across(); ++axis) {
+    b.lo[axis] = out.lines[axis].front();
+    b.hi[axis] = out.lines[axis].back();
+  }
+  b.lo[c.across()] = out.low();
+  b.hi[c.across()] = out.high();
+  return b;
+}
+
+bool meet(Bounds a, const Bounds& b, std::size_t dim, Bounds& common) {
+  common = a;
+  for (std::size_t k = 0; k < dim; ++k) {
+    common.lo[k] = std::max(a.lo[k], b.lo[k]);
+    common.hi[k] = std::min(a.hi[k], b.hi[k]);
+    if (!(common.lo[k] < common.hi[k])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Two things cannot be in one place: a body of a material, or another stack.
+void check_room(Context c, const Section& in, const LayersSpec& out) {
+  const Bounds mine = extent(c, out);
+  Bounds common;
+  constexpr double some = 1e-9; // of the common box: rounding
+  for (const Body& body : c.scene.bodies) {
+    if (body.material >= 0 && meet(mine, bounds(body.shape), c.dim(), common) && fraction(body.shape, c.scene.geometry, common.lo, common.hi) > some) {
+      c.deck.fail(*in.node("front"), fmt::format("the stack, from {:g} to {:g} m, overlaps body \"{}\"", out.low(), out.high(), body.name), "a front where there is room, or another place for the body");
+      return;
+    }
+  }
+  for (const LayersSpec& other : c.scene.layers) {
+    if (meet(mine, extent(c, other), c.dim(), common)) {
+      c.deck.fail(*in.node("front"), fmt::format("the stack, from {:g} to {:g} m, overlaps \"{}\", from {:g} to {:g} m", out.low(), out.high(), other.name, other.low(), other.high()), "a front where there is room");
+      return;
+    }
+  }
+}
+
+/// What flies must meet the stack, and across it: along the last axis, and narrower.
+void check_shot(Context c, const Section& in, const LayersSpec& out) {
+  const Results& r = c.scene.results;
+  const std::vector<std::string> names = axis_names(c.scene.geometry);
+  for (std::size_t q = 0; q < c.scene.bodies.size(); ++q) {
+    const Body& body = c.scene.bodies[q];
+    const bool bullet = r.bullet.empty() ? body.moves() && body.material >= 0 : std::find(r.bullet.begin(), r.bullet.end(), static_cast<int>(q)) != r.bullet.end();
+    if (!bullet) {
+      continue;
+    }
+    if (!r.bullet.empty() && r.shot_axis != static_cast<int>(c.across())) {
+      c.deck.fail({in.self().place, in.self().key, fmt::format("\"{}\" flies along {}; layers lie across {}", body.name, names[static_cast<std::size_t>(r.shot_axis)], names.back()),
+                   fmt::format("a shot along {}", names.back())});
+      return;
+    }
+    const Bounds b = bounds(body.shape);
+    for (std::size_t axis = 0; axis < c.across(); ++axis) {
+      const double reach = std::max(b.hi[axis], -b.lo[axis]), half = out.lines[axis].back();
+      if (std::isfinite(reach) && reach > half) {
+        c.deck.fail(*in.node("half_width"), fmt::format("{:g} m is less than the reach of \"{}\" along {}, {:g} m", half, body.name, names[axis], reach), "a stack wider than what strikes it");
+        return;
+      }
+    }
+  }
+}
+
+bool check_count(Context c, const Section& in, const LayersSpec& out) {
+  double elements = static_cast<double>(out.layers) * out.through;
+  for (std::size_t axis = 0; axis < c.across(); ++axis) {
+    elements *= static_cast<double>(out.lines[axis].size() - 1);
+  }
+  if (elements > most_cells) {
+    c.deck.fail({in.self().place, in.self().key, fmt::format("makes {:.3g} elements", elements), "2e8 elements at most"});
+  }
+  return elements <= most_cells;
+}
+
+bool check_name(Context c, const Section& in, const LayersSpec& out) {
+  const bool taken = std::any_of(c.scene.layers.begin(), c.scene.layers.end(), [&](const LayersSpec& other) { return other.name == out.name; });
+  if (taken) {
+    DeckNode* name = in.node("name");
+    c.deck.fail({name->defaulted ? in.self().place : name->place, in.self().key + ".name", fmt::format("there is another stack called \"{}\"", out.name), "a name of its own"});
+  }
+  return !taken;
+}
+
+void read_one(Context c, DeckNode& node) {
+  const std::size_t errors_before = c.deck.errors().size();
+  const Section in = read_section(c.deck, node, scene_keys::layers());
+  LayersSpec out;
+  out.name = in.text("name");
+  out.fabric = in.text("fabric");
+  out.layers = in.integer("layers");
+  out.through = in.integer("elements_through");
+  out.front = in.number("front", 0);
+  out.direction = c.scene.results.shot_direction;
+  const FabricMaterial* fabric = in.has("fabric") ? c.book.find(c.deck, out.fabric, *in.node("fabric")) : nullptr;
+  const bool sound = check_name(c, in, out) && fabric != nullptr && in.has("layers") && in.has("elements_through") && in.has("front");
+  if (fabric != nullptr) {
+    out.model = fabric->model;
+    choose_yarns(c, in, out);
+    read_methods(c, in, out);
+  }
+  read_edges(c, in, out);
+  const bool flat = read_plane(c, in, out);
+  if (!sound || !flat || !read_weight(c, in, *fabric, out)) {
+    return;
+  }
+  check_fabric(c, in, out);
+  if (c.deck.errors().size() > errors_before || !check_count(c, in, out)) {
+    return;
+  }
+  check_room(c, in, out);
+  check_shot(c, in, out);
+  c.scene.layers.push_back(std::move(out));
+}
+
+} // namespace
+
+void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, SceneSpec& scene) {
+  const FabricBook book(deck, fabrics);
+  for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
+    read_one({deck, book, scene}, list->items[i]);
+  }
+}
+
+} // namespace ballast

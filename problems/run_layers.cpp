@@ -1,0 +1,132 @@
+#include "problems/run_layers.hpp"
+
+#include "problems/layers_measure.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace ballast {
+
+namespace {
+
+constexpr std::size_t numbers_of_a_stack = 4;
+
+} // namespace
+
+template <int Dim> LayerSums sum_layers(const std::vector<Layers<Dim>>& layers) {
+  LayerSums sums;
+  for (const Layers<Dim>& l : layers) {
+    const LayerTotals t = totals(l.stack);
+    const LayerLedger& ledger = l.ledger;
+    sums.mass += t.mass;
+    sums.kinetic += t.leapfrog_kinetic;
+    sums.internal += t.internal + t.hourglass;
+    sums.lost += ledger.edge_work + ledger.edge_loss + ledger.contact_loss + ledger.step_change;
+    for (std::size_t d = 0; d < 3; ++d) {
+      sums.momentum[d] += t.momentum[d];
+      sums.edge_impulse[d] += ledger.edge_impulse[d];
+    }
+  }
+  return sums;
+}
+
+template <int Dim> std::vector<std::string> LayersRecord<Dim>::columns(const Scene<Dim>& scene) const {
+  std::vector<std::string> all;
+  for (const Layers<Dim>& l : scene.layers) {
+    const std::vector<std::string> some = layer_columns(l.stack);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+template <int Dim> std::vector<double> LayersRecord<Dim>::add(const Scene<Dim>& scene) {
+  std::vector<double> all;
+  for (std::size_t q = 0; q < scene.layers.size(); ++q) {
+    const Layers<Dim>& l = scene.layers[q];
+    const std::vector<double> some = layer_values(l.stack, l.ledger, spec_.layers[q].direction);
+    all.insert(all.end(), some.begin(), some.end());
+    seen_[q].largest = std::max(seen_[q].largest, measure_layers(l.stack, spec_.layers[q].direction).largest);
+  }
+  return all;
+}
+
+template <int Dim> void LayersRecord<Dim>::step(const Scene<Dim>& scene) {
+  for (std::size_t q = 0; q < scene.layers.size(); ++q) {
+    const Layers<Dim>& l = scene.layers[q];
+    const double dt = stable_step(l.stack, l.cfl).dt;
+    Seen& seen = seen_[q];
+    if (seen.first_step == 0) {
+      seen = {0, dt, dt, totals(l.stack).mass};
+    }
+    seen.least_step = std::min(seen.least_step, dt);
+  }
+}
+
+template <int Dim> void LayersRecord<Dim>::write_back_faces(const Scene<Dim>& scene, const std::filesystem::path& dir, int index) const {
+  for (std::size_t q = 0; q < scene.layers.size(); ++q) {
+    const LayerStack<Dim>& stack = scene.layers[q].stack;
+    write_back_face(stack, spec_.layers[q].direction, back_face_file(dir, stack.name, scene.layers.size(), index));
+  }
+}
+
+template <int Dim> nlohmann::ordered_json LayersRecord<Dim>::results(const Scene<Dim>& scene) const {
+  nlohmann::ordered_json all;
+  for (std::size_t q = 0; q < scene.layers.size(); ++q) {
+    const Layers<Dim>& l = scene.layers[q];
+    const LayerLedger& ledger = l.ledger;
+    const LayerMeasure m = measure_layers(l.stack, spec_.layers[q].direction);
+    const Seen& seen = seen_[q];
+    nlohmann::ordered_json j;
+    j["mass_kg"] = {{"start", seen.mass_start}, {"end", m.totals.mass}, {"eroded", m.eroded_mass}};
+    j["deflection_m"] = {{"last", m.centre}, {"last_anywhere", m.largest}, {"largest", std::max(seen.largest, m.largest)}};
+    j["deflection_velocity_m_per_s"] = m.velocity;
+    for (std::size_t axis = 0; axis < m.dome.size(); ++axis) {
+      const std::string name = Dim == 2 ? (l.stack.axisymmetric ? "r" : "x") : std::string(1, "xy"[axis]);
+      j["dome_radius_m"][name] = {{"at_1_mm", m.dome[axis]}, {"at_5_percent", m.dome_part[axis]}};
+    }
+    j["momentum_kg_m_per_s"] = {{"end", m.totals.momentum}, {"given_by_edges", ledger.edge_impulse}};
+    j["energy_J"] = {{"kinetic", m.totals.kinetic},
+                     {"kinetic_of_the_account", m.totals.leapfrog_kinetic},
+                     {"internal", m.totals.internal},
+                     {"hourglass", m.totals.hourglass},
+                     {"hourglass_share", m.totals.hourglass_share()},
+                     {"edges", ledger.edge_work + ledger.edge_loss},
+                     {"contact_loss", ledger.contact_loss},
+                     {"friction_loss", ledger.friction_loss},
+                     {"step_change", ledger.step_change},
+                     {"eroded", ledger.eroded_energy}};
+    j["penetration_deepest_m"] = ledger.deepest;
+    j["approach_in_a_step_largest_by_thickness"] = l.closing;
+    j["eroded_elements"] = ledger.eroded_elements;
+    j["crushed_element_steps"] = ledger.crushed;
+    j["substeps"] = l.steps;
+    j["stable_step_first_s"] = seen.first_step;
+    j["stable_step_smallest_over_first"] = seen.first_step > 0 ? seen.least_step / seen.first_step : 1.0;
+    all[l.stack.name] = j;
+  }
+  return all;
+}
+
+template <int Dim> std::vector<double> LayersRecord<Dim>::memory() const {
+  std::vector<double> numbers;
+  for (const Seen& s : seen_) {
+    numbers.insert(numbers.end(), {s.largest, s.first_step, s.least_step, s.mass_start});
+  }
+  return numbers;
+}
+
+template <int Dim> std::size_t LayersRecord<Dim>::recall(std::span<const double> numbers) {
+  std::size_t at = 0;
+  for (Seen& s : seen_) {
+    s = {numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3]};
+    at += numbers_of_a_stack;
+  }
+  return at;
+}
+
+template LayerSums sum_layers<2>(const std::vector<Layers<2>>&);
+template LayerSums sum_layers<3>(const std::vector<Layers<3>>&);
+template class LayersRecord<2>;
+template class LayersRecord<3>;
+
+} // namespace ballast

@@ -1,0 +1,193 @@
+// A run of a scene with fabric layers: what it conserves, what it writes, and that neither threads nor a restart change a bit.
+#include "problems/run_session.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/observers.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace ballast {
+namespace {
+
+/// A lead disc on three layers whose edges lie free: nothing outside acts along the shot.
+std::string deck(bool solid) {
+  const std::string body = solid ? R"(
+geometry = "3d"
+end_time = "3 us"
+[[body]]
+name = "disc"
+material = "lead"
+velocity = [0, 0, "370 m/s"]
+shape = { cylinder = { from = [0, 0, "-3 mm"], to = [0, 0, 0], radius = "6 mm" } }
+[mesh]
+map = "rod"
+outer_radius = "6 mm"
+u = { from = 0, to = 1, cells = 3 }
+v = { from = 0, to = 1, cells = 3 }
+z = { from = "-3 mm", to = "0 mm", cells = 2 }
+)"
+                                 : R"(
+geometry = "axisymmetric"
+end_time = "15 us"
+[[body]]
+name = "disc"
+material = "lead"
+velocity = ["0 m/s", "370 m/s"]
+shape = { cylinder = { from = ["0 mm", "-3 mm"], to = ["0 mm", "0 mm"], radius = "6 mm" } }
+[mesh]
+r = { from = "0 mm", to = "6 mm", cells = 6 }
+z = { from = "-3 mm", to = "0 mm", cells = 3 }
+)";
+  return "title = \"disc on vest\"\n" + body + R"(
+[motion]
+policy = "relax"
+remap_every = 4
+[numerics]
+spall = false
+[[layers]]
+name = "vest"
+fabric = "kevlar_km2_raftenberg"
+front = "0 mm"
+layers = 3
+half_width = "20 mm"
+cells = 10
+friction = 0.2
+[output]
+fields_every = "5 us"
+[results]
+bullet = ["disc"]
+)";
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  EXPECT_TRUE(in.good()) << path;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Written {
+  nlohmann::json summary;
+  std::string history, back_face;
+};
+
+template <int Dim> Written run(int threads) {
+  const io::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "deck.toml", dir = folder.path() / "run";
+  std::ofstream(file) << deck(Dim == 3);
+  const ReadScene read = read_scene(file.string(), {});
+  EXPECT_EQ(RunSession<Dim>(read, dir, threads, "").run(), 0);
+  return {nlohmann::json::parse(text_of(dir / "summary.json")), text_of(dir / "history.csv"), text_of(dir / "back_face_0001.csv")};
+}
+
+template <int Dim> void expect_conserved(const nlohmann::json& j) {
+  EXPECT_LT(std::abs(j["conservation_errors"]["mass_relative"].get<double>()), 1e-13);
+  EXPECT_LT(std::abs(j["conservation_errors"]["energy_relative"].get<double>()), 1e-10);
+  const nlohmann::json& vest = j["results"]["layers"]["vest"];
+  EXPECT_EQ(vest["mass_kg"]["start"], vest["mass_kg"]["end"]);
+  const double start = j["momentum_kg_m_per_s"]["start"][Dim - 1], end = j["momentum_kg_m_per_s"]["end"][Dim - 1];
+  EXPECT_NEAR(end, start, 1e-12 * start);
+  const double taken = vest["momentum_kg_m_per_s"]["end"][Dim - 1];
+  EXPECT_GT(taken, 0.05 * start); // the disc pushed
+  if (Dim == 2) { // runs until the push is through
+    EXPECT_GT(vest["deflection_m"]["last"].get<double>(), 1e-4);
+  }
+  EXPECT_GT(vest["energy_J"]["contact_loss"].get<double>(), 0.0);
+  EXPECT_GE(vest["substeps"].get<long>(), j["steps"].get<long>());
+}
+
+TEST(LayersRun, DiscOnAVestConservesMassMomentumAndEnergyAroundAnAxis) { expect_conserved<2>(run<2>(1).summary); }
+
+TEST(LayersRun, DiscOnAVestConservesMassMomentumAndEnergyInSpace) { expect_conserved<3>(run<3>(2).summary); }
+
+template <int Dim> void expect_same_bits() {
+  const Written one = run<Dim>(1);
+  for (const int threads : {2, 3}) {
+    const Written more = run<Dim>(threads);
+    EXPECT_EQ(one.history, more.history) << threads;
+    EXPECT_EQ(one.back_face, more.back_face) << threads;
+    EXPECT_EQ(one.summary["results"], more.summary["results"]) << threads;
+  }
+}
+
+TEST(LayersRun, SameBitsOnAnyNumberOfThreads) {
+  expect_same_bits<2>();
+  expect_same_bits<3>();
+}
+
+/// What the layers would not touch would fly through them.
+TEST(LayersRun, MeshesThatDoNotEndWhereTheirMatterDoesAreRefused) {
+  for (const std::vector<std::string>& settings : {std::vector<std::string>{"motion.policy=eulerian"}, std::vector<std::string>{"mesh.r.to=7 mm"}}) {
+    Deck text = Deck::parse(deck(false), "test.toml", settings);
+    const SceneSpec spec = read_scene(text);
+    ASSERT_TRUE(text.clean()) << text.error_report();
+    EXPECT_THROW(build_scene<2>(spec, 1), Error) << settings[0];
+  }
+}
+
+TEST(LayersRun, HistoryHasTheColumnsOfTheStack) {
+  const std::string history = run<2>(1).history, header = history.substr(0, history.find('\n'));
+  for (const char* column : {"vest_deflection [m]", "vest_dome_radius_r [m]", "vest_energy_kinetic [J]", "vest_contact_loss [J]", "bullet_velocity [m/s]"}) {
+    EXPECT_NE(header.find(column), std::string::npos) << column;
+  }
+}
+
+/// All that moves, as numbers.
+template <int Dim> std::vector<double> state_of(const Scene<Dim>& scene) {
+  const Layers<Dim>& l = scene.layers.at(0);
+  const LayerLedger& g = l.ledger;
+  std::vector<double> out = {g.contact_loss, g.friction_loss, g.step_change, g.deepest, l.closing, l.stack.step, static_cast<double>(l.steps), static_cast<double>(g.crushed)};
+  const auto add = [&](const std::vector<double>& values) { out.insert(out.end(), values.begin(), values.end()); };
+  for (std::size_t d = 0; d < Dim; ++d) {
+    add(l.stack.position[d]);
+    add(l.stack.velocity[d]);
+    add(l.stack.force[d]);
+    add(scene.blocks[0].position[d].data());
+    add(scene.blocks[0].velocity[d].data());
+  }
+  add(l.stack.energy);
+  add(l.stack.hourglass_energy);
+  for (const auto& c : l.slidelines.pairs) {
+    out.push_back(c.taken);
+    add(c.tracks[0].gap);
+  }
+  return out;
+}
+
+template <int Dim> void expect_restart_goes_on() {
+  Deck text = Deck::parse(deck(Dim == 3), "test.toml", {});
+  const SceneSpec spec = read_scene(text);
+  Scene<Dim> whole = build_scene<Dim>(spec, 1);
+  Clock clock;
+  clock.end_time = spec.end_time;
+  run(whole, clock);
+  const io::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "checkpoint.h5";
+  for (const long step : {1, 6, 13}) {
+    Scene<Dim> part = build_scene<Dim>(spec, 1), again = build_scene<Dim>(spec, 1);
+    Clock half, go_on;
+    half.end_time = go_on.end_time = spec.end_time;
+    StepLimit<Dim> stop(step);
+    ASSERT_FALSE(run(part, half, {&stop}));
+    RunMemory memory;
+    memory.deck_hash = "x";
+    write_checkpoint(path, part, half, memory);
+    read_checkpoint(path, again, go_on, memory);
+    EXPECT_TRUE(state_of(again) == state_of(part)) << "at step " << step;
+    StepLimit<Dim> enough(clock.step + 1); // a run that goes on wrongly may never end
+    run(again, go_on, {&enough});
+    EXPECT_EQ(go_on.step, clock.step);
+    EXPECT_TRUE(state_of(again) == state_of(whole)) << "from step " << step;
+  }
+}
+
+TEST(LayersRun, RestartGoesOnBitForBit) {
+  expect_restart_goes_on<2>();
+  expect_restart_goes_on<3>();
+}
+
+} // namespace
+} // namespace ballast
