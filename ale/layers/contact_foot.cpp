@@ -7,6 +7,8 @@ namespace ballast {
 
 namespace {
 
+constexpr double least_normal = 0.3; ///< where the corners' normals nearly cancel a segment is turned over in a fold: no foot there
+
 template <int Dim> using Vec = std::array<double, Dim>;
 
 template <int Dim> double dot(const Vec<Dim>& a, const Vec<Dim>& b) {
@@ -86,6 +88,7 @@ template <int Dim> Foot<Dim> find_foot(const ContactSurface<Dim>& s, int segment
   }
   foot.normal = normal.value(a, b);
   const double length = std::sqrt(dot<Dim>(foot.normal, foot.normal));
+  foot.found = foot.found && length > least_normal;
   for (double& c : foot.normal) {
     c /= length;
   }

@@ -240,6 +240,21 @@ TEST(ContactPath, HolesLetNodesThrough) {
   }
 }
 
+// A segment turned over in a fold, as in a crumpled sheet: the normals of its corners nearly cancel, depths along their mean
+// mean nothing. Points all around the fold, above the sheet, are not inside it.
+TEST(ContactPath, FoldedSegmentsHaveNoFoot) {
+  Sheet<2> sheet;
+  sheet.segments = {5, 1};
+  sheet.x = {std::vector<double>{0, 2, 4, 3.999, 2.5, 6}, std::vector<double>{0, 0, 0.1, 0.1, 0.05, 0}};
+  sheet.v = {std::vector<double>(6, 0.0), std::vector<double>(6, 0.0)};
+  sheet.mass.assign(6, 1.0);
+  const ContactSurface<2> s = sheet.view();
+  for (int k = 0; k <= 40; ++k) {
+    const Foot<2> foot = find_foot<2>(s, 2, {3 + 0.05 * k, 0.15}, {0.5, 0});
+    EXPECT_FALSE(foot.found && foot.local[0] >= 0 && foot.local[0] <= 1 && foot.gap < 0) << 3 + 0.05 * k << ": " << foot.gap;
+  }
+}
+
 TEST(ContactPath, UnusableSurfacesAreRefused) {
   OnFloor<2> t;
   t.floor = flat_sheet<2>(4, 0, 0.01, 0, 1, 1);
