@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <sys/wait.h>
 
 namespace ballast {
@@ -95,7 +97,7 @@ TEST(BadDecks, TheProgramExitsWith2AndWritesNothing) {
   if (!fs::exists(program)) {
     GTEST_SKIP() << program << " is not built";
   }
-  const fs::path out = fs::temp_directory_path() / "ballast_bad_deck_out";
+  const fs::path out = fs::temp_directory_path() / fmt::format("ballast_bad_deck_out_{}", getpid());
   fs::remove_all(out);
   const std::vector<fs::path> all = bad_decks();
   for (std::size_t i = 0; i < all.size();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <numbers>
 #include <random>
 
@@ -130,7 +131,7 @@ TEST(Placement, DecksTurnThenMoveAndNest) {
 }
 
 TEST(Placement, ResolvedDeckKeepsTheSurfacesFileAndItsSum) {
-  const auto path = std::filesystem::temp_directory_path() / "ballast_placed.stl";
+  const auto path = std::filesystem::temp_directory_path() / fmt::format("ballast_placed_{}.stl", getpid());
   const auto write = [&](double height) {
     std::ofstream out(path);
     out << "solid s\n";

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace ballast {
 namespace {
@@ -222,7 +223,7 @@ template <int Dim> void restarts(const SceneSpec& spec) {
   Clock clock = clock_to(spec.end_time);
   run(whole, clock);
 
-  const auto path = std::filesystem::temp_directory_path() / "ballast_restart_test.h5";
+  const auto path = std::filesystem::temp_directory_path() / fmt::format("ballast_restart_test_{}.h5", getpid());
   for (const long step : {1, 7, 18, 25, 33, 40}) {
     Scene<Dim> part = build_scene<Dim>(spec, 1);
     Clock half = clock_to(spec.end_time);
