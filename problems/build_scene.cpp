@@ -231,9 +231,6 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
       }
     }
   }
-  if (!spec.layers.empty() && !sides_go_along(spec.motion)) {
-    throw Error("layers: only the free sides of a mesh touch them, and this one does not go with what it holds: motion.policy = \"lagrangian\", or \"relax\" with its boundary lagrangian");
-  }
   Scene<Dim> scene;
   scene.title = spec.title;
   scene.numerics = method_of(spec);

@@ -297,6 +297,10 @@ void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, SceneSpec& scene
   for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
     read_one({deck, book, scene}, list->items[i]);
   }
+  if (!scene.layers.empty() && deck.clean() && !sides_go_along(scene.motion)) {
+    const DeckNode& first = list->items.front();
+    deck.fail({first.place, first.key, "only the free sides of a mesh touch layers, and this one does not go with what it holds", "motion.policy = \"lagrangian\", or \"relax\" with its boundary lagrangian"});
+  }
 }
 
 } // namespace ballast

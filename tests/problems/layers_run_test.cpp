@@ -120,12 +120,12 @@ TEST(LayersRun, SameBitsOnAnyNumberOfThreads) {
 
 /// What the layers would not touch would fly through them.
 TEST(LayersRun, MeshesThatDoNotEndWhereTheirMatterDoesAreRefused) {
-  for (const std::vector<std::string>& settings : {std::vector<std::string>{"motion.policy=eulerian"}, std::vector<std::string>{"mesh.r.to=7 mm"}}) {
-    Deck text = Deck::parse(deck(false), "test.toml", settings);
-    const SceneSpec spec = read_scene(text);
-    ASSERT_TRUE(text.clean()) << text.error_report();
-    EXPECT_THROW(build_scene<2>(spec, 1), Error) << settings[0];
-  }
+  Deck eulerian = Deck::parse(deck(false), "test.toml", {"motion.policy=eulerian"}), wide = Deck::parse(deck(false), "test.toml", {"mesh.r.to=7 mm"});
+  read_scene(eulerian);
+  EXPECT_FALSE(eulerian.clean());
+  const SceneSpec spec = read_scene(wide);
+  ASSERT_TRUE(wide.clean()) << wide.error_report();
+  EXPECT_THROW(build_scene<2>(spec, 1), Error);
 }
 
 TEST(LayersRun, HistoryHasTheColumnsOfTheStack) {

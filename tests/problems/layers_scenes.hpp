@@ -21,6 +21,8 @@ shape = { cylinder = { from = ["0 mm", "-6.23 mm"], to = ["0 mm", "0 mm"], radiu
 [mesh]
 r = { from = "0 mm", to = "6 mm", size = "0.5 mm" }
 z = { from = "-6.23 mm", to = "0 mm", size = "0.5 mm" }
+[motion]
+policy = "relax"
 [results]
 bullet = ["disc"]
 [[layers]]
@@ -48,6 +50,8 @@ shape = {{ cylinder = {{ from = [0, 0, "-6 mm"], to = [0, 0, 0], radius = "6 mm"
 x = {{ from = "{}", to = "6 mm", cells = 4 }}
 y = {{ from = "{}", to = "6 mm", cells = 4 }}
 z = {{ from = "-6 mm", to = "0 mm", cells = 4 }}
+[motion]
+policy = "relax"
 [[layers]]
 name = "vest"
 fabric = "kevlar_km2_raftenberg"

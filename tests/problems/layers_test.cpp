@@ -153,6 +153,8 @@ shape = { box = { from = ["-2 mm", "-6 mm"], to = ["2 mm", "0 mm"] } }
 [mesh]
 x = { from = "-2 mm", to = "2 mm", cells = 4 }
 y = { from = "-6 mm", to = "0 mm", cells = 6 }
+[motion]
+policy = "relax"
 [[layers]]
 name = "vest"
 fabric = "kevlar_hooke_wstm"
@@ -184,6 +186,8 @@ outer_radius = "4 mm"
 u = { from = 0, to = 1, cells = 2 }
 v = { from = -1, to = 1, cells = 4 }
 z = { from = "-29 mm", to = "0 mm", cells = 10 }
+[motion]
+policy = "relax"
 [[layers]]
 name = "vest"
 fabric = "kevlar_km2_raftenberg"

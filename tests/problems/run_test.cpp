@@ -3,12 +3,12 @@
 #include "problems/run_checkpoint.hpp"
 #include "problems/scene_reader.hpp"
 #include "problems/build_scene.hpp"
+#include "tests/io/temporary_folder.hpp"
 #include "tests/observers.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace ballast {
 namespace {
@@ -223,7 +223,8 @@ template <int Dim> void restarts(const SceneSpec& spec) {
   Clock clock = clock_to(spec.end_time);
   run(whole, clock);
 
-  const auto path = std::filesystem::temp_directory_path() / fmt::format("ballast_restart_test_{}.h5", getpid());
+  const io::TemporaryFolder folder; // of its own: another build's tests may run beside
+  const auto path = folder.path() / "checkpoint.h5";
   for (const long step : {1, 7, 18, 25, 33, 40}) {
     Scene<Dim> part = build_scene<Dim>(spec, 1);
     Clock half = clock_to(spec.end_time);
@@ -242,7 +243,6 @@ template <int Dim> void restarts(const SceneSpec& spec) {
     EXPECT_EQ(go_on.step, clock.step);
     EXPECT_TRUE(state_of(again) == state_of(whole)) << "from step " << step;
   }
-  std::filesystem::remove(path);
 }
 
 TEST(Run, DamageStaysBetweenNothingAndFailure) {
