@@ -35,6 +35,7 @@ struct StudyPoint {
   std::vector<std::string> settings; ///< for --set
   std::string deck;                  ///< empty: the study's
   std::string hash;                  ///< of the resolved deck
+  std::size_t cells = 0;             ///< of its mesh, once the deck is read
 };
 /// All combinations, the last variation fastest. Throws Error if a key is varied twice.
 std::vector<StudyPoint> study_points(const std::vector<Variation>& variations, const std::vector<std::string>& settings);
@@ -62,6 +63,9 @@ void measure_errors(StudyRow& row, const std::filesystem::path& folder, const St
 
 /// Errors of `row` against the exact solution, as its run measured them: "L1 density", ...
 void take_exact_errors(StudyRow& row);
+
+/// Throws Error where several runs have the most cells: which of them is right is not for the order of the command line to say.
+void require_one_finest(const std::vector<StudyPoint>& points);
 
 /// Makes `folder` this program's for a new run. What an earlier one said goes first: a run that is killed leaves no other build's
 /// answer under this one's name.

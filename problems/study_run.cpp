@@ -30,7 +30,6 @@ void on_stop(int) { stop_asked = 1; }
 struct Job {
   StudyPoint point;
   std::string deck;
-  std::size_t cells = 0;
 };
 
 /// Of this program's file, FNV-1a 64 bit: what another build made is not this one's answer.
@@ -221,15 +220,16 @@ std::optional<std::size_t> finest(const std::vector<StudyRow>& rows) {
   return alone ? best : std::nullopt;
 }
 
-/// Throws Error where several runs have the most cells: which of them is right is not for the order of the command line to say.
-void require_one_finest(const std::vector<Job>& jobs) {
-  const auto most = std::max_element(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.cells < b.cells; });
+} // namespace
+
+void require_one_finest(const std::vector<StudyPoint>& points) {
+  const auto most = std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.cells < b.cells; });
   std::string listed;
   int equals = 0;
-  for (const Job& job : jobs) {
+  for (const StudyPoint& point : points) {
     constexpr int named = 8;
-    if (job.cells == most->cells && ++equals <= named) {
-      listed += fmt::format("{}{}", equals == 1 ? "" : ", ", job.point.name);
+    if (point.cells == most->cells && ++equals <= named) {
+      listed += fmt::format("{}{}", equals == 1 ? "" : ", ", point.name);
     }
   }
   if (equals > 1) {
@@ -238,8 +238,6 @@ void require_one_finest(const std::vector<Job>& jobs) {
                             equals, most->cells, listed, equals > 8 ? ", ..." : ""));
   }
 }
-
-} // namespace
 
 void claim_folder(const fs::path& folder) {
   fs::create_directories(folder);
@@ -252,7 +250,8 @@ namespace {
 /// The points as jobs; every deck is sound before the first run, and has an exact solution where one is asked for.
 std::vector<Job> jobs_of(const StudyOptions& options, const std::vector<StudyCase>& cases, const std::vector<Variation>& variations) {
   std::vector<Job> jobs;
-  for (StudyPoint& point : cases.empty() ? study_points(variations, options.settings) : study_points(cases, variations, options.settings)) {
+  std::vector<StudyPoint> points = cases.empty() ? study_points(variations, options.settings) : study_points(cases, variations, options.settings);
+  for (StudyPoint& point : points) {
     const std::string deck = point.deck.empty() ? options.deck : point.deck;
     const ReadScene read = read_scene(deck, point.settings);
     point.hash = deck_hash(read);
@@ -260,10 +259,11 @@ std::vector<Job> jobs_of(const StudyOptions& options, const std::vector<StudyCas
     if (options.reference == "exact" && !(options.exact && options.exact(read.scene, why_not))) {
       throw Error(fmt::format("--reference exact: {} ({}): {}", deck, point.name, why_not));
     }
-    jobs.push_back({std::move(point), deck, cell_count(read.scene)});
+    point.cells = cell_count(read.scene);
+    jobs.push_back({point, deck});
   }
   if (options.reference == "finest") {
-    require_one_finest(jobs);
+    require_one_finest(points);
   }
   return jobs;
 }
@@ -318,7 +318,7 @@ int study_command(const StudyOptions& options, std::string& out) {
     return names(options.reference, job.point.name, cases.empty() ? std::vector<std::string>{} : job.point.values);
   });
   if (by_deck) {
-    StudyPoint reference{.name = "reference", .values = {}, .settings = {}, .deck = {}, .hash = deck_hash(read_scene(options.reference))};
+    StudyPoint reference{.name = "reference", .values = {}, .settings = {}, .deck = {}, .hash = deck_hash(read_scene(options.reference)), .cells = 0};
     jobs.push_back({std::move(reference), options.reference});
   }
   const fs::path folder = options.out.empty() ? fs::path("studies") / fs::path(options.deck).stem() : fs::path(options.out);

@@ -71,22 +71,21 @@ TEST(Study, ErrorsAreAgainstTheReference) {
 }
 
 TEST(Study, FinestIsOneRunAlone) {
-  StudyOptions options;
-  options.deck = BALLAST_SOURCE_DIR "/problems/sod.toml";
-  options.vary = {"numerics.cfl=0.2,0.4"};
-  const io::TemporaryFolder folder;
-  options.out = folder.path().string();
-  std::string out;
+  auto points = study_points({parse_variation("a=1,2,3")}, {});
+  points[0].cells = 10;
+  points[1].cells = points[2].cells = 20;
   try {
-    study_command(options, out);
-    FAIL() << "two runs have the same cells";
+    require_one_finest(points);
+    FAIL() << "two runs have the most cells";
   } catch (const Error& e) {
     const std::string what = e.what();
-    for (const char* part : {"--reference finest", "000_numerics.cfl=0.2", "001_numerics.cfl=0.4", "allowed: "}) {
+    EXPECT_EQ(what.find("000_a=1"), std::string::npos) << what;
+    for (const char* part : {"--reference finest", "001_a=2, 002_a=3", "allowed: "}) {
       EXPECT_NE(what.find(part), std::string::npos) << what;
     }
   }
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path())); // before the first run
+  points[1].cells = 30;
+  EXPECT_NO_THROW(require_one_finest(points));
 }
 
 TEST(Study, AFolderClaimedForARunHoldsNoOtherAnswer) {
