@@ -1,7 +1,7 @@
 // The Lagrangian step: predict, corner forces, accelerate, move, then work, closure, strength, state.
-#include "ale/layer_coupling.hpp"
 #include "ale/absorbing.hpp"
 #include "ale/lagrange_parts.hpp"
+#include "ale/layer_coupling.hpp"
 #include "ale/outflow.hpp"
 #include "ale/phases.hpp"
 #include "ale/rest.hpp"

@@ -1,4 +1,5 @@
 #include "ale/layers/contact_foot.hpp"
+#include "ale/layers/contact_vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +11,6 @@ namespace {
 constexpr double least_normal = 0.3; ///< where the corners' normals nearly cancel a segment is turned over in a fold: no foot there
 
 template <int Dim> using Vec = std::array<double, Dim>;
-
-template <int Dim> double dot(const Vec<Dim>& a, const Vec<Dim>& b) {
-  double sum = 0;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    sum += a[d] * b[d];
-  }
-  return sum;
-}
 
 Vec<3> cross(const Vec<3>& a, const Vec<3>& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
@@ -35,16 +28,16 @@ template <int Dim> void add(Vec<Dim>& v, double factor, const Vec<Dim>& w) {
 /// One Newton step of x = X + g N: changes local and gap by the returned amounts; false past the surface's focus.
 bool newton(const Vec<3>& r, const Vec<3>& a, const Vec<3>& b, const Vec<3>& n, int outside, std::array<double, 3>& step) {
   const Vec<3> bn = cross(b, n), ab = cross(a, b);
-  const double det = dot<3>(a, bn), size = std::sqrt(dot<3>(a, a) * dot<3>(b, b));
+  const double det = dot(a, bn), size = std::sqrt(dot(a, a) * dot(b, b));
   if (!(det * outside > 1e-3 * size)) {
     return false;
   }
-  step = {dot<3>(r, bn) / det, dot<3>(r, cross(n, a)) / det, dot<3>(r, ab) / det};
+  step = {dot(r, bn) / det, dot(r, cross(n, a)) / det, dot(r, ab) / det};
   return true;
 }
 bool newton(const Vec<2>& r, const Vec<2>& a, const Vec<2>&, const Vec<2>& n, int outside, std::array<double, 3>& step) {
   const double det = cross(a, n);
-  if (!(det * outside > 1e-3 * std::sqrt(dot<2>(a, a)))) {
+  if (!(det * outside > 1e-3 * std::sqrt(dot(a, a)))) {
     return false;
   }
   step = {cross(r, n) / det, 0, cross(a, r) / det};
@@ -66,7 +59,7 @@ template <int Dim> Foot<Dim> find_foot(const ContactSurface<Dim>& s, int segment
     Vec<Dim> r = point, x_a = place.along_a(b), x_b = place.along_b(a);
     add<Dim>(r, -1, place.value(a, b));
     if (iteration == 0) {
-      foot.gap = dot<Dim>(r, n) / dot<Dim>(n, n);
+      foot.gap = dot(r, n) / dot(n, n);
     }
     add<Dim>(r, -foot.gap, n);
     add<Dim>(x_a, foot.gap, normal.along_a(b));
@@ -87,7 +80,7 @@ template <int Dim> Foot<Dim> find_foot(const ContactSurface<Dim>& s, int segment
     }
   }
   foot.normal = normal.value(a, b);
-  const double length = std::sqrt(dot<Dim>(foot.normal, foot.normal));
+  const double length = std::sqrt(dot(foot.normal, foot.normal));
   foot.found = foot.found && length > least_normal;
   for (double& c : foot.normal) {
     c /= length;
@@ -104,13 +97,13 @@ template <int Dim> Foot<Dim> orthogonal_foot(const ContactSurface<Dim>& s, int s
     const Vec<Dim> x_a = place.along_a(b), x_b = place.along_b(a);
     Vec<Dim> r = point;
     add<Dim>(r, -1, place.value(a, b));
-    const double aa = dot<Dim>(x_a, x_a), ra = dot<Dim>(r, x_a);
+    const double aa = dot(x_a, x_a), ra = dot(r, x_a);
     if (iteration == 0 && foot.gap * foot.gap > 0.01 * aa) {
       return foot;
     }
     double da = ra / aa, db = 0;
     if constexpr (Dim == 3) { // Newton's method of r.X_a = r.X_b = 0
-      const double bb = dot<3>(x_b, x_b), rb = dot<3>(r, x_b), ab = dot<3>(x_a, x_b) - dot<3>(r, place.f_ab), det = aa * bb - ab * ab;
+      const double bb = dot(x_b, x_b), rb = dot(r, x_b), ab = dot(x_a, x_b) - dot(r, place.f_ab), det = aa * bb - ab * ab;
       if (!(det > 1e-6 * aa * bb)) {
         return foot;
       }
@@ -123,12 +116,12 @@ template <int Dim> Foot<Dim> orthogonal_foot(const ContactSurface<Dim>& s, int s
   }
   Vec<Dim> r = point, n = upright(place.along_a(b), place.along_b(a));
   add<Dim>(r, -1, place.value(a, b));
-  const double scale = s.outside / std::sqrt(dot<Dim>(n, n));
+  const double scale = s.outside / std::sqrt(dot(n, n));
   for (double& c : n) {
     c *= scale;
   }
   out.local = {a, b};
-  out.gap = dot<Dim>(r, n);
+  out.gap = dot(r, n);
   out.normal = n;
   const bool near = std::abs(a - foot.local[0]) + std::abs(b - foot.local[1]) < 0.1;
   return out.found && near ? out : foot;
@@ -140,7 +133,7 @@ template <int Dim> double segment_extent(const ContactSurface<Dim>& s, int segme
   for (std::size_t c = 0; c < corner.size() / 2; ++c) {
     Vec<Dim> d = s.place(corner[corner.size() - 1 - c]);
     add<Dim>(d, -1, s.place(corner[c]));
-    square = std::max(square, dot<Dim>(d, d));
+    square = std::max(square, dot(d, d));
   }
   return 0.5 * std::sqrt(square);
 }

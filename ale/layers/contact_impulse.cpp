@@ -1,5 +1,6 @@
 // Impulses of a pair of surfaces whose feet are known: the method is ale/layers/contact.hpp's.
 #include "ale/layers/contact_parts.hpp"
+#include "ale/layers/contact_vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +11,6 @@ namespace {
 
 template <int Dim> using Vec = std::array<double, Dim>;
 template <int Dim> using Surfaces = std::array<ContactSurface<Dim>*, 2>;
-
-template <std::size_t Dim> double dot(const std::array<double, Dim>& a, const std::array<double, Dim>& b) {
-  double sum = 0;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    sum += a[d] * b[d];
-  }
-  return sum;
-}
 
 /// What the opening of a node has to be at least.
 double asked_opening(double gap, double opening, double dt, double push_out) {

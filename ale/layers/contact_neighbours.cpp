@@ -1,19 +1,12 @@
 // Feet beyond the sides of a node's segment: a node that slides into a valley meets the next segment within the step.
 #include "ale/layers/contact_parts.hpp"
+#include "ale/layers/contact_vector.hpp"
 
 namespace ballast {
 
 namespace {
 
 template <int Dim> using Surfaces = std::array<ContactSurface<Dim>*, 2>;
-
-template <std::size_t Dim> double dot(const std::array<double, Dim>& a, const std::array<double, Dim>& b) {
-  double sum = 0;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    sum += a[d] * b[d];
-  }
-  return sum;
-}
 
 /// The segment turns towards the side that touches: there is a valley between it and the one that has this normal.
 template <int Dim> bool rises(const ContactSurface<Dim>& b, int segment, std::array<int, 2> step, const std::array<double, 2>& local, const std::array<double, Dim>& normal) {

@@ -1,4 +1,5 @@
 #include "ale/layers/contact_track.hpp"
+#include "ale/layers/contact_vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +13,6 @@ constexpr int longest_walk = 64;    ///< segments
 constexpr double least_slide = 1e-9, least_depth = 1e-9; ///< of a segment: less is round-off
 
 template <int Dim> using Vec = std::array<double, Dim>;
-
-template <int Dim> double dot(const Vec<Dim>& a, const Vec<Dim>& b) {
-  double sum = 0;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    sum += a[d] * b[d];
-  }
-  return sum;
-}
 
 /// How many segments to walk along an axis: none inside, and past the outer edge none either.
 int walk(double local, int at, int count) {
@@ -67,7 +60,7 @@ template <int Dim> unsigned char sides_near(const ContactSurface<Dim>& s, int se
   const Patch<Dim> place = places(s, segment);
   for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
     const Vec<Dim> along = axis == 0 ? place.along_a(local[1]) : place.along_b(local[0]);
-    const double by = reach / std::sqrt(dot<Dim>(along, along));
+    const double by = reach / std::sqrt(dot(along, along));
     bits |= ((by > local[axis] ? 1U : 0U) | (by > 1 - local[axis] ? 2U : 0U)) << 2 * axis;
   }
   return static_cast<unsigned char>(bits);
@@ -79,7 +72,7 @@ template <int Dim> bool goes_off(const ContactSurface<Dim>& s, int segment, cons
   bool off = false;
   for (std::size_t axis = 0; axis < Dim - 1; ++axis) {
     const Vec<Dim> along = axis == 0 ? place.along_a(local[1]) : place.along_b(local[0]);
-    const double by = dot<Dim>(way, along) / dot<Dim>(along, along);
+    const double by = dot(way, along) / dot(along, along);
     off = off || (by < -least_slide && local[axis] + by < 0) || (by > least_slide && local[axis] + by > 1);
   }
   return off;
@@ -104,16 +97,16 @@ template <int Dim> void note_foot(const TrackPair<Dim>& pair, int node, int segm
   } else if (foot.gap < 0 && (past(found.local[0]) || (Dim == 3 && past(found.local[1])))) {
     status = FootStatus::beside;
   } else {
-    const double depth = beside ? 2 * dt * std::abs(dot<Dim>(u, foot.normal)) : entry_depth * segment_extent(other, segment);
+    const double depth = beside ? 2 * dt * std::abs(dot(u, foot.normal)) : entry_depth * segment_extent(other, segment);
     status = foot.gap < -depth ? FootStatus::behind : FootStatus::front;
   }
-  track.opening[n] = dot<Dim>(u, foot.normal);
+  track.opening[n] = dot(u, foot.normal);
   for (std::size_t d = 0; d < Dim; ++d) {
     track.normal[d][n] = foot.normal[d];
     u[d] *= dt;
   }
   track.current[n] = 1;
-  const double reach = std::sqrt(dot<Dim>(u, u));
+  const double reach = std::sqrt(dot(u, u));
   track.leaves[n] = reach > 0 && foot.gap <= reach ? sides_near<Dim>(other, segment, track.local[n], reach) : static_cast<unsigned char>(0);
 }
 
@@ -157,7 +150,7 @@ template <int Dim> Outlook look_ahead(const TrackPair<Dim>& pair, int node, Cont
   const std::array<double, 2> local = track.local[n];
   const ContactSurface<Dim>& other = pair.other;
   const Vec<Dim> u = relative_velocity<Dim>(pair.nodes, node, other, segment, local);
-  const double slid = pair.dt * pair.dt * dot<Dim>(u, u);
+  const double slid = pair.dt * pair.dt * dot(u, u);
   track.current[n] = 0;
   track.leaves[n] = 0;
   track.opening[n] = 0;
