@@ -2,6 +2,7 @@
 #include "problems/run_session.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/observers.hpp"
+#include "tests/problems/restarts.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -159,29 +160,7 @@ template <int Dim> std::vector<double> state_of(const Scene<Dim>& scene) {
 
 template <int Dim> void expect_restart_goes_on() {
   Deck text = Deck::parse(deck(Dim == 3), "test.toml", {});
-  const SceneSpec spec = read_scene(text);
-  Scene<Dim> whole = build_scene<Dim>(spec, 1);
-  Clock clock;
-  clock.end_time = spec.end_time;
-  run(whole, clock);
-  const io::TemporaryFolder folder;
-  const std::filesystem::path path = folder.path() / "checkpoint.h5";
-  for (const long step : {1, 6, 13}) {
-    Scene<Dim> part = build_scene<Dim>(spec, 1), again = build_scene<Dim>(spec, 1);
-    Clock half, go_on;
-    half.end_time = go_on.end_time = spec.end_time;
-    StepLimit<Dim> stop(step);
-    ASSERT_FALSE(run(part, half, {&stop}));
-    RunMemory memory;
-    memory.deck_hash = "x";
-    write_checkpoint(path, part, half, memory);
-    read_checkpoint(path, again, go_on, memory);
-    EXPECT_TRUE(state_of(again) == state_of(part)) << "at step " << step;
-    StepLimit<Dim> enough(clock.step + 1); // a run that goes on wrongly may never end
-    run(again, go_on, {&enough});
-    EXPECT_EQ(go_on.step, clock.step);
-    EXPECT_TRUE(state_of(again) == state_of(whole)) << "from step " << step;
-  }
+  expect_restarts<Dim>(read_scene(text), {1, 6, 13}, [](const Scene<Dim>& scene) { return state_of(scene); });
 }
 
 TEST(LayersRun, RestartGoesOnBitForBit) {

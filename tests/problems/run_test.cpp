@@ -5,6 +5,7 @@
 #include "problems/build_scene.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/observers.hpp"
+#include "tests/problems/restarts.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -219,30 +220,7 @@ TEST(Run, SameBitsForAnyNumberOfThreads) {
 }
 
 template <int Dim> void restarts(const SceneSpec& spec) {
-  Scene<Dim> whole = build_scene<Dim>(spec, 1);
-  Clock clock = clock_to(spec.end_time);
-  run(whole, clock);
-
-  const io::TemporaryFolder folder; // of its own: another build's tests may run beside
-  const auto path = folder.path() / "checkpoint.h5";
-  for (const long step : {1, 7, 18, 25, 33, 40}) {
-    Scene<Dim> part = build_scene<Dim>(spec, 1);
-    Clock half = clock_to(spec.end_time);
-    StepLimit<Dim> stop(step);
-    EXPECT_FALSE(run(part, half, {&stop}));
-    RunMemory memory;
-    memory.deck_hash = "x";
-    write_checkpoint(path, part, half, memory);
-
-    Scene<Dim> again = build_scene<Dim>(spec, 2);
-    Clock go_on = clock_to(spec.end_time);
-    read_checkpoint(path, again, go_on, memory);
-    EXPECT_TRUE(state_of(again) == state_of(part)) << "at step " << step;
-    StepLimit<Dim> enough(clock.step + 1); // a run that goes on wrongly may never end
-    run(again, go_on, {&enough});
-    EXPECT_EQ(go_on.step, clock.step);
-    EXPECT_TRUE(state_of(again) == state_of(whole)) << "from step " << step;
-  }
+  expect_restarts<Dim>(spec, {1, 7, 18, 25, 33, 40}, [](const Scene<Dim>& scene) { return state_of(scene); });
 }
 
 TEST(Run, DamageStaysBetweenNothingAndFailure) {
