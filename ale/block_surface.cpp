@@ -58,6 +58,11 @@ template <int Dim> BlockSurface<Dim> gather(const Block<Dim>& b, int axis, int s
   }
   s.position = s.origin;
   s.rest_of_way = s.start;
+  for (auto& component : s.rest_of_way) {
+    for (double& u : component) {
+      u *= 0.5;
+    }
+  }
   return s;
 }
 
@@ -118,11 +123,12 @@ template <int Dim> ContactSurface<Dim> surface_at(BlockSurface<Dim>& s, double d
     }
     out.position[d] = s.position[d].data();
     out.velocity[d] = s.velocity[d].data();
-    out.velocity_n[d] = s.rest_of_way[d].data();
+    out.velocity_n[d] = s.start[d].data();
+    out.fixed[d] = s.rest_of_way[d].data();
   }
   out.mass = s.mass.data();
   out.weight = 0.5 * dt / left;
-  out.weight_n = 1;
+  out.rim = 1e-9; // rounding: past its corner the other side of the block is met
   out.outside = outside_of<Dim>(s.axis, s.side);
   out.held = s.held.data();
   return out;

@@ -3,6 +3,7 @@
 #include "ale/block_surface.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace ballast {
@@ -26,12 +27,35 @@ template <int Dim> std::vector<char> exposed(const LayerStack<Dim>& stack, bool 
   return out;
 }
 
+/// Adds the time until its end to a count of seconds.
+class Stopwatch {
+public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 /// Does a block's side face away from a stack?
 template <int Dim> bool turned_away(const BlockSurface<Dim>& side, bool above) { return side.axis == Dim - 1 && side.side == (above ? 0 : 1); }
 
-template <int Dim> int substeps_of(const Layers<Dim>& layers, double dt) {
-  const double stable = stable_step(layers.stack, layers.cfl).dt;
-  return std::max(layers.substeps, static_cast<int>(std::ceil(dt / stable * (1 - 1e-12))));
+/// Substeps in what is left of a step of dt.
+template <int Dim> int substeps_of(const Layers<Dim>& layers, double dt, double done) {
+  const double stable = stable_step(layers.stack, layers.cfl).dt, left = 1 - done;
+  return std::max({1, static_cast<int>(std::lround(layers.substeps * left)), static_cast<int>(std::ceil(left * dt / stable * (1 - 1e-12)))});
+}
+
+void book(LayerLedger& ledger, const ContactReport& report) {
+  ledger.friction_loss += report.friction_loss;
+  ledger.behind += report.behind;
+  ledger.deepest = std::max(ledger.deepest, report.deepest);
+  for (std::size_t d = 0; d < 3; ++d) {
+    ledger.edge_impulse[d] += report.impulse_sum[d]; // what symmetry planes and held edges took of oblique impulses
+  }
 }
 
 /// The contact of all blocks' sides with the layers they may meet, in a fixed order.
@@ -54,18 +78,17 @@ template <int Dim> void touch_blocks(Layers<Dim>& l, std::vector<std::vector<Blo
         ContactSurface<Dim> fabric = layer_surface(l.stack, l.stack.velocity, static_cast<int>(layer), !above, l.slidelines.held);
         const ContactReport report = resolve_contact(bullet, fabric, h, l.contact, l.with_blocks[pair], &pool);
         tell_twins(sides, s);
-        l.ledger.friction_loss += report.friction_loss;
-        l.ledger.deepest = std::max(l.ledger.deepest, report.deepest);
+        book(l.ledger, report);
       }
     }
   }
 }
 
 template <int Dim> void touch(Layers<Dim>& l, std::vector<std::vector<BlockSurface<Dim>>>& blocks, double dt, double done, double h, ThreadPool& pool) {
+  const Stopwatch watch(l.contact_seconds);
   const SlidelineReport report = resolve_slidelines(l.stack, h, l.stack.velocity, pool, l.contact, l.slidelines);
   touch_blocks(l, blocks, dt, done, h, pool); // last: what is heaviest has the last word in a step
-  l.ledger.friction_loss += report.contact.friction_loss;
-  l.ledger.deepest = std::max(l.ledger.deepest, report.contact.deepest);
+  book(l.ledger, report.contact);
   l.closing = std::max(l.closing, report.closing_share);
 }
 
@@ -93,14 +116,17 @@ template <int Dim> void step_layers(Scene<Dim>& scene, double dt) {
   for (const Block<Dim>& b : scene.blocks) {
     blocks.push_back(gather_surfaces(b));
   }
-  int count = 1;
-  for (const Layers<Dim>& l : scene.layers) {
-    count = std::max(count, substeps_of(l, dt));
-  }
-  const double h = dt / count;
-  for (int k = 0; k < count; ++k) {
-    const double done = static_cast<double>(k) / count;
+  // The rest of the step in equal parts, looked at anew before each: a layer that stiffens shortens what is left.
+  double done = 0;
+  for (bool last = false; !last;) {
+    int count = 1;
+    for (const Layers<Dim>& l : scene.layers) {
+      count = std::max(count, substeps_of(l, dt, done));
+    }
+    last = count == 1;
+    const double h = (1 - done) * dt / count;
     for (Layers<Dim>& l : scene.layers) {
+      const Stopwatch watch(l.seconds);
       substep<Dim>(l.stack, h, l.ledger, *scene.pool, [&] { touch(l, blocks, dt, done, h, *scene.pool); });
       ++l.steps;
     }
@@ -109,6 +135,7 @@ template <int Dim> void step_layers(Scene<Dim>& scene, double dt) {
         follow_way(s, dt, done, h);
       }
     }
+    done += h / dt;
   }
   for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
     for (const auto& s : blocks[ib]) {

@@ -16,6 +16,8 @@ template <int Dim> LayerStack<Dim> build_stack(const LayersSpec& spec, Geometry 
   in.edge = spec.edge;
   in.edge_stiffness = spec.edge_stiffness;
   in.hourglass = spec.hourglass;
+  in.guard = spec.guard;
+  in.viscosity = spec.viscosity;
   LayerStack<Dim> stack = make_stack<Dim>(in);
   stack.rate_time = spec.rate_time;
   return stack;

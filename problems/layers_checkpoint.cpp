@@ -24,10 +24,12 @@ template <int Dim, class Stack, class Visit> void visit_stack(Stack& s, const st
   }
   visit(base + "energy", s.energy);
   visit(base + "hourglass_energy", s.hourglass_energy);
+  visit(base + "shock_heat", s.shock_heat);
   visit(base + "wave_step", s.wave_step);
   visit(base + "alive", s.alive);
   visit(base + "stress_volume", s.stress_volume);
   visit(base + "hourglass_volume", s.hourglass_volume);
+  visit(base + "shock_volume", s.shock_volume);
 }
 
 /// Likewise of the nodes' feet; arrays as long as what was seen.
@@ -75,7 +77,8 @@ template <int Dim> std::vector<double> pack(const Layers<Dim>& l) {
   const LayerLedger& g = l.ledger;
   return {g.edge_work, g.contact_loss, g.friction_loss, g.eroded_energy, g.edge_impulse[0], g.edge_impulse[1], g.edge_impulse[2],
           static_cast<double>(g.eroded_elements), static_cast<double>(g.crushed), g.deepest, g.edge_loss, g.step_change, l.stack.step, l.closing,
-          static_cast<double>(l.steps), static_cast<double>(l.slidelines.steps), static_cast<double>(l.slidelines.pairs.size()), static_cast<double>(l.with_blocks.size())};
+          static_cast<double>(l.steps), static_cast<double>(l.slidelines.steps), static_cast<double>(l.slidelines.pairs.size()), static_cast<double>(l.with_blocks.size()),
+          static_cast<double>(g.turned_over), static_cast<double>(g.behind)};
 }
 
 template <int Dim> void unpack(const std::vector<double>& v, Layers<Dim>& l) {
@@ -96,6 +99,8 @@ template <int Dim> void unpack(const std::vector<double>& v, Layers<Dim>& l) {
   l.slidelines.steps = static_cast<long>(v.at(15));
   l.slidelines.pairs.assign(static_cast<std::size_t>(v.at(16)), {});
   l.with_blocks.assign(static_cast<std::size_t>(v.at(17)), {});
+  g.turned_over = static_cast<long>(v.at(18));
+  g.behind = static_cast<long>(v.at(19));
 }
 
 template <int Dim> void put_contact(io::CheckpointWriter& out, const std::string& base, const std::vector<ContactState<Dim>>& pairs) {

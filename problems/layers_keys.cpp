@@ -11,14 +11,14 @@ const SectionSpec& layers() {
   static const SectionSpec spec = {
       "[[layers]]",
       "A stack of fabric layers across the last axis, the shot's, its middle on the axis x = y = 0 (r = 0; planar x = 0). Two of `areal_density`, `thickness` and "
-      "`density` give the third; what is not given is `plies` times a ply of the named fabric. Each layer stands for an equal share of the plies. Where the mesh has a "
+      "`density` give the third; what is not given is `plies` times a ply of the named fabric. The same plies over another thickness carry the same load of a width: yarn and in-plane shear stresses go with density (not those of an isotropic fabric). Each layer stands for an equal share of the plies. One stack a scene. Where the mesh has a "
       "plane of symmetry x = 0 or y = 0 the stack ends there, too. Around an axis the fabric is quasi-isotropic: yarns along every radius (warp) and every circle (fill); "
       "that is stiffer than woven cloth off its yarns' directions.",
       {{.name = "name", .kind = text, .doc = "unique; in columns, dumps and files", .fallback = "layers"},
        {.name = "fabric", .kind = text, .doc = "`kevlar_km2_raftenberg` or `kevlar_hooke_wstm` (docs/materials.md), or one of [fabrics]", .required = true},
        {.name = "layers", .kind = integer, .doc = "that slide on each other, at most one a ply", .range = {1, 1000}, .fallback = "5"},
        {.name = "elements_through", .kind = integer, .doc = "elements through a layer", .range = {1, 100}, .fallback = "1"},
-       {.name = "plies", .kind = integer, .doc = "of the stack; default the fabric's", .range = {1, 1000}},
+       {.name = "plies", .kind = integer, .doc = "of the stack; default as many as its weight makes, the fabric's without one", .range = {1, 1000}},
        {.name = "areal_density", .kind = quantity, .doc = "of the stack", .dimension = Dimension::areal_density, .range = positive()},
        {.name = "thickness", .kind = quantity, .doc = "of the stack at rest", .dimension = Dimension::length, .range = positive()},
        {.name = "density", .kind = quantity, .doc = "areal_density over thickness", .dimension = Dimension::density, .range = positive()},
@@ -28,11 +28,15 @@ const SectionSpec& layers() {
        {.name = "size", .kind = special, .doc = "element size in the plane as in [mesh.AXIS], from the middle: at each place of `to` and at `half_width`, the first stretch uniform; or at the middle, too: `size = [\"1 mm\", \"5 mm\"]` grows all the way"},
        {.name = "cells", .kind = integer, .doc = "instead of `size`: that many equal elements from the middle to `half_width`", .range = {.lo = 1}},
        {.name = "refine", .kind = quantity, .doc = "sizes in the plane are divided by it: for studies of the resolution", .range = {0.01, 100}, .fallback = "1"},
-       {.name = "edges", .kind = choice, .doc = "what holds the outer edges in their plane", .fallback = "free", .choices = {"free", "fixed", "elastic"}},
+       {.name = "edges", .kind = choice, .doc = "what holds the outer edges: nothing, all of their motion, or springs in their plane", .fallback = "free", .choices = {"free", "fixed", "elastic"}},
        {.name = "edge_stiffness", .kind = quantity, .doc = "elastic edges: N/m for a metre of edge", .dimension = Dimension::pressure, .range = positive()},
        {.name = "friction", .kind = quantity, .doc = "Coulomb's coefficient between layers and on what they touch", .range = {0, 2}, .fallback = "0"},
-       {.name = "hourglass", .kind = quantity, .doc = "stiffness of the modes without strain, share of the moduli at rest", .range = {0, 1}, .fallback = "0.05"},
-       {.name = "hourglass_viscosity", .kind = quantity, .doc = "their damping, of density x wave speed x size", .range = {0, 0.5}, .fallback = "0.05"},
+       {.name = "hourglass", .kind = quantity, .doc = "stiffness of the modes without strain, share of the moduli at rest", .range = {0, 1}, .fallback = "0.2"},
+       {.name = "hourglass_viscosity", .kind = quantity, .doc = "their damping, of density x wave speed x size", .range = {0, 0.5}, .fallback = "0"},
+       {.name = "quadratic_q", .kind = quantity, .doc = "artificial viscosity through the thickness: of density x the square of the speed at which an element's faces come together", .range = {0, 10}, .fallback = "1.5"},
+       {.name = "linear_q", .kind = quantity, .doc = "likewise, of density x that speed x the wave speed at rest", .range = {0, 10}, .fallback = "0.06"},
+       {.name = "shortest", .kind = quantity, .doc = "of its length at rest: an edge of an element in the plane closes no further, where pressed cloth without strength would fold finer than the mesh and turn inside out; 0: no end", .range = {0, 0.9}, .fallback = "0.2"},
+       {.name = "least_volume", .kind = quantity, .doc = "of that at rest: below it, in the middle of either surface, an element presses back and does not turn inside out; 0: it may", .range = {0, 0.5}, .fallback = "0.1"},
        {.name = "cfl", .kind = quantity, .doc = "share of the stack's stable step; above 0.7 modes can resonate with the step", .range = {0, 1, true}, .fallback = "0.7"},
        {.name = "subcycles", .kind = special, .doc = "steps of the stack to one of the mesh: `auto`, as many as its own stable step asks, or a whole number", .fallback = "auto"},
        {.name = "yarns", .kind = choice, .doc = "axisymmetric: what lies along radii and circles: `both` is warp along radii and fill along circles; default `both`", .choices = {"both", "warp", "fill"}},

@@ -132,7 +132,7 @@ template <int Dim> std::vector<std::string> layer_columns(const LayerStack<Dim>&
     quantities.push_back(fmt::format("dome_radius_{} [m]", axis));
     quantities.push_back(fmt::format("dome_radius_{}_5_percent [m]", axis));
   }
-  for (const char* q : {"eroded_mass [kg]", "momentum [kg m/s]", "energy_kinetic [J]", "energy_internal [J]", "energy_hourglass [J]", "energy_edge [J]", "contact_loss [J]", "friction_loss [J]", "penetration_deepest [m]"}) {
+  for (const char* q : {"eroded_mass [kg]", "momentum [kg m/s]", "energy_kinetic [J]", "energy_internal [J]", "energy_hourglass [J]", "energy_shock_heat [J]", "energy_edge [J]", "contact_loss [J]", "friction_loss [J]", "step_change [J]", "penetration_deepest [m]", "turned_over", "inside_without_contact"}) {
     quantities.emplace_back(q);
   }
   for (std::string& q : quantities) {
@@ -148,7 +148,8 @@ template <int Dim> std::vector<double> layer_values(const LayerStack<Dim>& s, co
     v.push_back(m.dome[axis]);
     v.push_back(m.dome_part[axis]);
   }
-  v.insert(v.end(), {m.eroded_mass, direction * m.totals.momentum[Dim - 1], m.totals.kinetic, m.totals.internal, m.totals.hourglass, ledger.edge_work + ledger.edge_loss, ledger.contact_loss, ledger.friction_loss, ledger.deepest});
+  v.insert(v.end(), {m.eroded_mass, direction * m.totals.momentum[Dim - 1], m.totals.kinetic, m.totals.internal, m.totals.hourglass, m.totals.shock_heat, ledger.edge_work + ledger.edge_loss, ledger.contact_loss, ledger.friction_loss, ledger.step_change, ledger.deepest,
+                      static_cast<double>(ledger.turned_over), static_cast<double>(ledger.behind)});
   return v;
 }
 

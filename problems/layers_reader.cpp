@@ -38,6 +38,21 @@ bool cut_at_zero(const SceneSpec& scene, std::size_t component) {
   return false;
 }
 
+/// The same plies over another thickness: as much yarn carries the load of a width. Stresses of yarns and of their shear go with
+/// density; the transverse law by strain and an isotropic solid are as they are.
+void spread(FabricModel& model, double denser) {
+  if (auto* law = std::get_if<RaftenbergFabric>(&model)) {
+    for (YarnFamily* y : {&law->warp, &law->fill}) {
+      for (double* k : {&y->fit.a, &y->fit.b, &y->fit.c, &y->fit.d}) {
+        *k *= denser;
+      }
+    }
+    for (double* k : {&law->in_plane.modulus, &law->in_plane.stiffer, &law->in_plane.stiffest, &law->coupling}) {
+      *k *= denser;
+    }
+  }
+}
+
 /// Of the three only two are free; what is not given is that of `plies` plies of the fabric.
 bool read_weight(Context c, const Section& in, const FabricMaterial& fabric, LayersSpec& out) {
   for (const char* key : {"areal_density", "thickness", "density", "plies"}) {
@@ -67,6 +82,17 @@ bool read_weight(Context c, const Section& in, const FabricMaterial& fabric, Lay
     return false;
   }
   rho = d ? rho : areal / thickness;
+  constexpr double weave = 0.05; // plies of one cloth weigh the same within that
+  const double ply = known ? density(fabric.model) * fabric.thickness / fabric.plies : 0.0;
+  if (known && in.has("plies") && std::abs(rho * thickness - out.plies * ply) > weave * rho * thickness) {
+    c.deck.fail(*in.node("plies"), fmt::format("{} plies of \"{}\" weigh {:.4g} kg/m2, the stack {:.4g} kg/m2", out.plies, out.fabric, out.plies * ply, rho * thickness),
+                fmt::format("plies = {}, another weight, or a fabric of its own in [fabrics]", std::max(1L, std::lround(rho * thickness / ply))));
+    return false;
+  }
+  if (known) {
+    spread(out.model, rho / density(fabric.model));
+    out.plies = in.has("plies") ? out.plies : static_cast<int>(std::max(1L, std::lround(rho * thickness / ply)));
+  }
   std::visit([rho](auto& law) { law.density = rho; }, out.model);
   out.thickness = thickness;
   if (out.layers > out.plies) {
@@ -151,6 +177,10 @@ void read_methods(Context c, const Section& in, LayersSpec& out) {
   out.friction = in.number("friction", 0);
   out.hourglass.stiffness = in.number("hourglass", out.hourglass.stiffness);
   out.hourglass.viscosity = in.number("hourglass_viscosity", out.hourglass.viscosity);
+  out.guard.shortest = in.number("shortest", out.guard.shortest);
+  out.guard.volume = in.number("least_volume", out.guard.volume);
+  out.viscosity.quadratic = in.number("quadratic_q", out.viscosity.quadratic);
+  out.viscosity.linear = in.number("linear_q", out.viscosity.linear);
   out.cfl = in.number("cfl", out.cfl);
   out.rate_time = in.number("rate_time", out.rate_time);
   const auto* law = std::get_if<RaftenbergFabric>(&out.model);
@@ -194,7 +224,7 @@ bool meet(Bounds a, const Bounds& b, std::size_t dim, Bounds& common) {
   return true;
 }
 
-/// Two things cannot be in one place: a body of a material, or another stack.
+/// Two things cannot be in one place.
 void check_room(Context c, const Section& in, const LayersSpec& out) {
   const Bounds mine = extent(c, out);
   Bounds common;
@@ -202,12 +232,6 @@ void check_room(Context c, const Section& in, const LayersSpec& out) {
   for (const Body& body : c.scene.bodies) {
     if (body.material >= 0 && meet(mine, bounds(body.shape), c.dim(), common) && fraction(body.shape, c.scene.geometry, common.lo, common.hi) > some) {
       c.deck.fail(*in.node("front"), fmt::format("the stack, from {:g} to {:g} m, overlaps body \"{}\"", out.low(), out.high(), body.name), "a front where there is room, or another place for the body");
-      return;
-    }
-  }
-  for (const LayersSpec& other : c.scene.layers) {
-    if (meet(mine, extent(c, other), c.dim(), common)) {
-      c.deck.fail(*in.node("front"), fmt::format("the stack, from {:g} to {:g} m, overlaps \"{}\", from {:g} to {:g} m", out.low(), out.high(), other.name, other.low(), other.high()), "a front where there is room");
       return;
     }
   }
@@ -229,6 +253,11 @@ void check_shot(Context c, const Section& in, const LayersSpec& out) {
       return;
     }
     const Bounds b = bounds(body.shape);
+    const bool missed = out.direction > 0 ? out.high() <= b.lo[c.across()] : out.low() >= b.hi[c.across()];
+    if (missed) {
+      c.deck.fail(*in.node("front"), fmt::format("the stack, from {:g} to {:g} m, lies behind \"{}\", which flies away from it", out.low(), out.high(), body.name), "a front ahead of the shot");
+      return;
+    }
     for (std::size_t axis = 0; axis < c.across(); ++axis) {
       const double reach = std::max(b.hi[axis], -b.lo[axis]), half = out.lines[axis].back();
       if (std::isfinite(reach) && reach > half) {
@@ -250,13 +279,12 @@ bool check_count(Context c, const Section& in, const LayersSpec& out) {
   return elements <= most_cells;
 }
 
-bool check_name(Context c, const Section& in, const LayersSpec& out) {
-  const bool taken = std::any_of(c.scene.layers.begin(), c.scene.layers.end(), [&](const LayersSpec& other) { return other.name == out.name; });
-  if (taken) {
-    DeckNode* name = in.node("name");
-    c.deck.fail({name->defaulted ? in.self().place : name->place, in.self().key + ".name", fmt::format("there is another stack called \"{}\"", out.name), "a name of its own"});
+/// Stacks do not touch each other.
+bool check_alone(Context c, const Section& in, const LayersSpec& out) {
+  if (!c.scene.layers.empty()) {
+    c.deck.fail({in.self().place, in.self().key, fmt::format("a second stack beside \"{}\": stacks have no contact with each other", c.scene.layers.front().name), fmt::format("one stack, \"{}\" with more `layers`", out.name)});
   }
-  return !taken;
+  return c.scene.layers.empty();
 }
 
 void read_one(Context c, DeckNode& node) {
@@ -270,7 +298,7 @@ void read_one(Context c, DeckNode& node) {
   out.front = in.number("front", 0);
   out.direction = c.scene.results.shot_direction;
   const FabricMaterial* fabric = in.has("fabric") ? c.book.find(c.deck, out.fabric, *in.node("fabric")) : nullptr;
-  const bool sound = check_name(c, in, out) && fabric != nullptr && in.has("layers") && in.has("elements_through") && in.has("front");
+  const bool sound = check_alone(c, in, out) && fabric != nullptr && in.has("layers") && in.has("elements_through") && in.has("front");
   if (fabric != nullptr) {
     out.model = fabric->model;
     choose_yarns(c, in, out);

@@ -11,7 +11,7 @@ namespace {
 template <int Dim> double bytes_of(const LayerStack<Dim>& s) {
   const auto nodes = static_cast<double>(s.node_count()), elements = static_cast<double>(s.element_count());
   const double of_node = 8 * (5 * Dim + 1), rates = s.rate[0][0].empty() ? 0 : 4;
-  const double of_element = 8 * (LayerStack<Dim>::strains + LayerStack<Dim>::hourglass_modes + 4 + rates + 3) + 1;
+  const double of_element = 8 * (LayerStack<Dim>::strains + LayerStack<Dim>::hourglass_modes + 6 + rates + 3) + 1;
   return nodes * of_node + elements * of_element;
 }
 

@@ -22,6 +22,8 @@ struct LayersSpec {
   double edge_stiffness = 0;    ///< N/m for a metre of edge
   double friction = 0;
   LayerHourglass hourglass;
+  LayerGuard guard;
+  LayerViscosity viscosity;
   double cfl = 0.7;
   int subcycles = 0;            ///< to one step of the mesh; 0: as many as the stack's stable step asks
   double rate_time = 1e-6;      ///< s, of fabrics with a rate factor

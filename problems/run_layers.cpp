@@ -9,7 +9,7 @@ namespace ballast {
 
 namespace {
 
-constexpr std::size_t numbers_of_a_stack = 4;
+constexpr std::size_t numbers_of_a_stack = 5;
 
 } // namespace
 
@@ -18,9 +18,11 @@ template <int Dim> LayerSums sum_layers(const std::vector<Layers<Dim>>& layers) 
   for (const Layers<Dim>& l : layers) {
     const LayerTotals t = totals(l.stack);
     const LayerLedger& ledger = l.ledger;
+    sums.seconds += l.seconds;
+    sums.contact_seconds += l.contact_seconds;
     sums.mass += t.mass;
     sums.kinetic += t.leapfrog_kinetic;
-    sums.internal += t.internal + t.hourglass;
+    sums.internal += t.internal + t.hourglass + t.shock_heat;
     sums.lost += ledger.edge_work + ledger.edge_loss + ledger.contact_loss + ledger.step_change;
     for (std::size_t d = 0; d < 3; ++d) {
       sums.momentum[d] += t.momentum[d];
@@ -45,7 +47,9 @@ template <int Dim> std::vector<double> LayersRecord<Dim>::add(const Scene<Dim>& 
     const Layers<Dim>& l = scene.layers[q];
     const std::vector<double> some = layer_values(l.stack, l.ledger, spec_.layers[q].direction);
     all.insert(all.end(), some.begin(), some.end());
-    seen_[q].largest = std::max(seen_[q].largest, measure_layers(l.stack, spec_.layers[q].direction).largest);
+    const LayerMeasure m = measure_layers(l.stack, spec_.layers[q].direction);
+    seen_[q].largest = std::max(seen_[q].largest, m.largest);
+    seen_[q].largest_internal = std::max(seen_[q].largest_internal, m.totals.internal);
   }
   return all;
 }
@@ -56,7 +60,7 @@ template <int Dim> void LayersRecord<Dim>::step(const Scene<Dim>& scene) {
     const double dt = stable_step(l.stack, l.cfl).dt;
     Seen& seen = seen_[q];
     if (seen.first_step == 0) {
-      seen = {0, dt, dt, totals(l.stack).mass};
+      seen = {0, dt, dt, totals(l.stack).mass, 0};
     }
     seen.least_step = std::min(seen.least_step, dt);
   }
@@ -90,6 +94,8 @@ template <int Dim> nlohmann::ordered_json LayersRecord<Dim>::results(const Scene
                      {"internal", m.totals.internal},
                      {"hourglass", m.totals.hourglass},
                      {"hourglass_share", m.totals.hourglass_share()},
+                     {"hourglass_share_of_largest_internal", m.totals.hourglass / std::max({seen.largest_internal, m.totals.internal, 1e-300})},
+                     {"shock_heat", m.totals.shock_heat},
                      {"edges", ledger.edge_work + ledger.edge_loss},
                      {"contact_loss", ledger.contact_loss},
                      {"friction_loss", ledger.friction_loss},
@@ -99,6 +105,8 @@ template <int Dim> nlohmann::ordered_json LayersRecord<Dim>::results(const Scene
     j["approach_in_a_step_largest_by_thickness"] = l.closing;
     j["eroded_elements"] = ledger.eroded_elements;
     j["crushed_element_steps"] = ledger.crushed;
+    j["turned_over_element_steps"] = ledger.turned_over;
+    j["inside_without_contact_node_steps"] = ledger.behind;
     j["substeps"] = l.steps;
     j["stable_step_first_s"] = seen.first_step;
     j["stable_step_smallest_over_first"] = seen.first_step > 0 ? seen.least_step / seen.first_step : 1.0;
@@ -110,7 +118,7 @@ template <int Dim> nlohmann::ordered_json LayersRecord<Dim>::results(const Scene
 template <int Dim> std::vector<double> LayersRecord<Dim>::memory() const {
   std::vector<double> numbers;
   for (const Seen& s : seen_) {
-    numbers.insert(numbers.end(), {s.largest, s.first_step, s.least_step, s.mass_start});
+    numbers.insert(numbers.end(), {s.largest, s.first_step, s.least_step, s.mass_start, s.largest_internal});
   }
   return numbers;
 }
@@ -118,7 +126,7 @@ template <int Dim> std::vector<double> LayersRecord<Dim>::memory() const {
 template <int Dim> std::size_t LayersRecord<Dim>::recall(std::span<const double> numbers) {
   std::size_t at = 0;
   for (Seen& s : seen_) {
-    s = {numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3]};
+    s = {numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3], numbers[at + 4]};
     at += numbers_of_a_stack;
   }
   return at;

@@ -45,6 +45,7 @@ private:
     double largest = 0;                   ///< deflection of any node of the back face at any sample, m
     double first_step = 0, least_step = 0; ///< stable steps of the stack, s
     double mass_start = 0;                ///< kg
+    double largest_internal = 0;          ///< J: at any sample
   };
   const SceneSpec& spec_;
   std::vector<Seen> seen_;

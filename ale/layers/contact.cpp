@@ -12,17 +12,17 @@ namespace {
 
 template <int Dim> using Surfaces = std::array<ContactSurface<Dim>*, 2>;
 
-template <int Dim> double fastest(const ContactSurface<Dim>& s) {
-  double square = 0;
+template <int Dim> double largest_speed(const ContactSurface<Dim>& s) {
+  double fastest = 0;
   for (int n = 0; n < s.node_count(); ++n) {
-    double now = 0, before = 0;
+    double now = 0, fixed = 0;
     for (std::size_t d = 0; d < Dim; ++d) {
       now += s.velocity[d][n] * s.velocity[d][n];
-      before += s.weight_n != 0 ? s.velocity_n[d][n] * s.velocity_n[d][n] : 0.0;
+      fixed += s.fixed_at(d, n) * s.fixed_at(d, n);
     }
-    square = std::max({square, now, before});
+    fastest = std::max(fastest, s.weight * std::sqrt(now) + std::sqrt(fixed));
   }
-  return std::sqrt(square) * (s.weight + s.weight_n);
+  return fastest;
 }
 
 /// Looks for feet that were lost in this step, and for all that are away when the surfaces have moved enough.
@@ -37,7 +37,7 @@ template <int Dim> void search_missing(const Surfaces<Dim>& surfaces, double dt,
   if (!(lost[0] || lost[1] || away[0] || away[1])) {
     return;
   }
-  state.travel += dt * (fastest(*surfaces[0]) + fastest(*surfaces[1]));
+  state.travel += dt * (largest_speed(*surfaces[0]) + largest_speed(*surfaces[1]));
   const bool due = state.travel > std::min(search_again_after(*surfaces[0]), search_again_after(*surfaces[1]));
   state.travel = due ? 0 : state.travel;
   for (std::size_t s = 0; s < 2; ++s) {

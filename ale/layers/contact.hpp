@@ -1,7 +1,7 @@
 // Contact of two surfaces by impulses on predicted positions: node to segment, both ways.
 //
 // For a node s with its foot on a segment (corners k, shares phi_k, normal n, gap g at the step's start; ale/layers/contact_track):
-//   opening  c = n.(u_s - sum phi_k u_k), u = weight velocity + weight_n velocity_n, what moves a node in the step
+//   opening  c = n.(u_s - sum phi_k u_k), u = weight velocity + fixed, what moves a node in the step
 //   asked    g + dt c >= 0; where g < 0: c >= min(push_out |g|/dt, max(0, -c before contact))
 //   1/W      W = sum_d n_d^2 (w_s/m_s + sum phi_k^2 w_k/m_k)
 //   impulse  lambda = max(0, lambda + (asked - c)/W): n lambda on the node, -phi_k n lambda on the corners
@@ -25,8 +25,8 @@ namespace ballast {
 struct ContactSettings {
   double friction = 0;     ///< Coulomb's coefficient
   double push_out = 0.3;   ///< share of a penetration taken back in a step
-  int sweeps = 20;         ///< of Gauss-Seidel at most, each round
-  int rounds = 4;          ///< at most: sweeps, then nodes that were driven into contact join
+  int sweeps = 100;        ///< of Gauss-Seidel at most, each round
+  int rounds = 8;          ///< at most: sweeps, then nodes that were driven into contact join
   int refresh = 8;         ///< every so many steps all feet are found anew
   double tolerance = 1e-4; ///< of the step's largest violation: sweeps end below
 };

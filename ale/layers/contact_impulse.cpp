@@ -125,11 +125,11 @@ private:
     for (std::size_t d = 0; d < Dim; ++d) {
       const int axis = static_cast<int>(d);
       p.gives[d] = a.inverse_mass(p.node, axis);
-      double w = a.weight * p.gives[d], u = a.weight_n != 0 ? a.weight_n * a.velocity_n[d][p.node] : 0.0;
+      double w = a.weight * p.gives[d], u = a.fixed_at(d, p.node);
       for (std::size_t c = 0; c < p.corners; ++c) {
         p.corner_gives[d][c] = p.share[c] * b.inverse_mass(p.corner[c], axis);
         w += p.share[c] * b.weight * p.corner_gives[d][c];
-        u -= b.weight_n != 0 ? p.share[c] * b.weight_n * b.velocity_n[d][p.corner[c]] : 0.0;
+        u -= p.share[c] * b.fixed_at(d, p.corner[c]);
       }
       p.per_impulse += p.normal[d] * p.normal[d] * w;
       p.per_slip = std::max(p.per_slip, w);

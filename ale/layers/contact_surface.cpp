@@ -109,8 +109,8 @@ template <int Dim> void check_surface(const ContactSurface<Dim>& s, const char* 
     refuse("outside is 1 or -1, the sign of the normal's side that touches");
   }
   for (std::size_t d = 0; d < Dim; ++d) {
-    if (s.position[d] == nullptr || s.velocity[d] == nullptr || (s.weight_n != 0 && s.velocity_n[d] == nullptr)) {
-      refuse("position, velocity or velocity_n is missing");
+    if (s.position[d] == nullptr || s.velocity[d] == nullptr ) {
+      refuse("position or velocity is missing");
     }
   }
   if (s.mass == nullptr || !std::all_of(s.mass, s.mass + s.node_count(), [](double m) { return m > 0; })) {

@@ -16,15 +16,17 @@ template <int Dim> struct ContactSurface {
   std::array<const double*, Dim> position{};     ///< m, at the step's start
   std::array<double*, Dim> velocity{};           ///< m/s; contact changes it
   const double* mass = nullptr;                  ///< kg, > 0; around an axis of the whole ring, impulses are then a ring's
-  std::array<const double*, Dim> velocity_n{};   ///< m/s, at the step's start, where nodes move by the mean of both; else none
+  std::array<const double*, Dim> velocity_n{};   ///< m/s, at the step's start, where forces work by the mean of both: for the energy account; or none
   std::array<const double*, Dim> force{};        ///< N, already in `velocity` as (dt + step_before)/2 force/mass (leapfrog); for the energy account; or none
   double step_before = 0;                        ///< s: 0: as this step
-  double weight = 1, weight_n = 0;               ///< a node moves by dt (weight velocity + weight_n velocity_n): 1/2, 1/2 where the mean moves it
+  std::array<const double*, Dim> fixed{};        ///< m/s: part of what moves a node that contact has no say in; or none
+  double weight = 1;                             ///< a node moves by dt (weight velocity + fixed): 1/2 and velocity_n/2 where the mean moves it
   double rim = 0.1;                              ///< of a segment: so far past an outer edge its continuation still touches
   int outside = 1;                               ///< 1 or -1
   const char* alive = nullptr;                   ///< by segment, 0: a hole; none: all are there
   const unsigned char* held = nullptr;           ///< by node, bit d: no velocity along axis d; none: all free
 
+  double fixed_at(std::size_t d, int node) const { return fixed[d] != nullptr ? fixed[d][node] : 0.0; }
   int nodes_along(int axis) const { return axis < Dim - 1 ? segments[static_cast<std::size_t>(axis)] + 1 : 1; }
   int rows() const { return nodes_along(1); }
   int node_count() const { return nodes_along(0) * nodes_along(1); }

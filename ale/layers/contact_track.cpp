@@ -41,7 +41,7 @@ template <int Dim>
 std::array<double, Dim> relative_velocity(const ContactSurface<Dim>& nodes, int node, const ContactSurface<Dim>& other, int segment, const std::array<double, 2>& local) {
   const auto corner = other.corners_of(segment);
   const auto share = corner_shares<Dim>(local);
-  const auto moved = [](const ContactSurface<Dim>& s, std::size_t d, int n) { return s.weight * s.velocity[d][n] + (s.weight_n != 0 ? s.weight_n * s.velocity_n[d][n] : 0.0); };
+  const auto moved = [](const ContactSurface<Dim>& s, std::size_t d, int n) { return s.weight * s.velocity[d][n] + s.fixed_at(d, n); };
   Vec<Dim> u;
   for (std::size_t d = 0; d < Dim; ++d) {
     u[d] = moved(nodes, d, node);

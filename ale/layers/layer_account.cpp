@@ -15,7 +15,9 @@ template <int Dim> void book_row(LayerStack<Dim>& s, int j, int level, double ha
   const auto x = node_rows(s, s.position, j, level), v = node_rows(s, s.velocity, j, level);
   const auto Q = element_rows<Count<Dim>::strains>(s, s.stress_volume, j, level);
   const auto H = element_rows<Count<Dim>::hourglass>(s, s.hourglass_volume, j, level);
-  double *energy = s.energy.data() + first, *hourglass = s.hourglass_energy.data() + first;
+  double *energy = s.energy.data() + first, *hourglass = s.hourglass_energy.data() + first, *heat = s.shock_heat.data() + first;
+  const double* shock = s.shock_volume.data() + first;
+  constexpr std::size_t at33 = Dim == 3 ? static_cast<std::size_t>(s33) : static_cast<std::size_t>(e33);
 #pragma GCC ivdep
   for (int i = 0; i < sizes.count; ++i) {
     const Gradients a = sizes.gradients(i, Dim == 3);
@@ -30,6 +32,7 @@ template <int Dim> void book_row(LayerStack<Dim>& s, int j, int level, double ha
       held_power += H[k][i] * held[k];
     }
     energy[i] += half * power;
+    heat[i] += half * shock[i] * rate[at33];
     hourglass[i] += half * held_power;
   }
 }

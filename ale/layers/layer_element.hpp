@@ -10,6 +10,9 @@
 //   E11 by eta and eta zeta, E22 by xi and xi zeta, E33 by xi, eta and xi eta, 2 E13 by eta, 2 E23 by xi  (2D: E33 by xi).
 // They vanish in every linear map of the rest shape and do not see rotations. Of each quantity k, form_k(c, d) is the symmetric
 // form with value form_k(c, c)/2 and rate form_k(c, dc/dt), `pull` the derivative of sum Q_k value_k by the modes.
+// The last two held quantities are volumes over those at rest, signed, in the middle of the lower and the upper surface:
+//   J = (g1 x g2).g3 with g1 = a1 (c1 +- c13), g2 likewise (2D: g1 x g3, without the hoop)
+// of degree Dim: form_k(c, c) is Dim times the value. Strains do not tell an element from its mirror image; these do.
 // Inner loops are unrolled by force: else loops over elements do not vectorise.
 #pragma once
 
@@ -22,10 +25,10 @@ constexpr double upper_point = 0.577350269189625764509; // zeta
 
 template <int Dim> struct Count;
 template <> struct Count<2> {
-  static constexpr std::size_t modes = 4, strains = 6, hourglass = 1, rows = 2;
+  static constexpr std::size_t modes = 4, strains = 6, quadratic = 1, hourglass = quadratic + 2, rows = 2;
 };
 template <> struct Count<3> {
-  static constexpr std::size_t modes = 7, strains = 9, hourglass = 9, rows = 4;
+  static constexpr std::size_t modes = 7, strains = 9, quadratic = 9, hourglass = quadratic + 2, rows = 4;
 };
 
 // Modes in 3D; in 2D, where eta is not: c1, c3, c13 and the mean.
@@ -72,6 +75,38 @@ template <std::size_t N> [[gnu::always_inline]] inline std::array<double, N> slo
     out[d] = factor * (a[d] + part * b[d]);
   }
   return out;
+}
+
+[[gnu::always_inline]] inline Vector<3> cross(const Vector<3>& a, const Vector<3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Volume over that at rest in the middle of a surface (zeta = -1, 1) and its derivatives by g1, g2, g3; in 2D by g1 and g3.
+template <int Dim> struct SurfaceVolume {
+  Vector<Dim> by1, by2, by3;
+};
+[[gnu::always_inline]] inline SurfaceVolume<3> surface_volume(const Modes<3>& c, const Gradients& a, double zeta) {
+  const Vector<3> g1 = slope(a.a1, c[c1], zeta, c[c13]), g2 = slope(a.a2, c[c2], zeta, c[c23]), g3 = {a.a3 * c[c3][0], a.a3 * c[c3][1], a.a3 * c[c3][2]};
+  return {cross(g2, g3), cross(g3, g1), cross(g1, g2)};
+}
+[[gnu::always_inline]] inline SurfaceVolume<2> surface_volume(const Modes<2>& c, const Gradients& a, double zeta) {
+  const Vector<2> g1 = slope(a.a1, c[p1], zeta, c[p13]), g3 = {a.a3 * c[p3][0], a.a3 * c[p3][1]};
+  return {{g3[1], -g3[0]}, {0, 0}, {-g1[1], g1[0]}};
+}
+[[gnu::always_inline]] inline double volume_form(const SurfaceVolume<3>& J, const Modes<3>& d, const Gradients& a, double zeta) {
+  return dot(J.by1, slope(a.a1, d[c1], zeta, d[c13])) + dot(J.by2, slope(a.a2, d[c2], zeta, d[c23])) + a.a3 * dot(J.by3, d[c3]);
+}
+[[gnu::always_inline]] inline double volume_form(const SurfaceVolume<2>& J, const Modes<2>& d, const Gradients& a, double zeta) {
+  return dot(J.by1, slope(a.a1, d[p1], zeta, d[p13])) + a.a3 * dot(J.by3, d[p3]);
+}
+[[gnu::always_inline]] inline void pull_volume(double Q, const SurfaceVolume<3>& J, const Gradients& a, double zeta, Modes<3>& p) {
+  add(p[c1], a.a1 * Q, J.by1), add(p[c13], zeta * a.a1 * Q, J.by1);
+  add(p[c2], a.a2 * Q, J.by2), add(p[c23], zeta * a.a2 * Q, J.by2);
+  add(p[c3], a.a3 * Q, J.by3);
+}
+[[gnu::always_inline]] inline void pull_volume(double Q, const SurfaceVolume<2>& J, const Gradients& a, double zeta, Modes<2>& p) {
+  add(p[p1], a.a1 * Q, J.by1), add(p[p13], zeta * a.a1 * Q, J.by1);
+  add(p[p3], a.a3 * Q, J.by3);
 }
 
 template <class Pointer> [[gnu::always_inline]] inline Modes<3> modes_at(const NodeRows<3, Pointer>& x, int i) {
@@ -193,11 +228,13 @@ template <class Pointer> [[gnu::always_inline]] inline Modes<2> modes_at(const N
           a33 * both(c3, c23),
           a11 * (both(c1, c123) + both(c13, c12)),
           a22 * (both(c2, c123) + both(c23, c12)),
-          a33 * (both(c3, c123) + both(c13, c23))};
+          a33 * (both(c3, c123) + both(c13, c23)),
+          volume_form(surface_volume(c, a, -1), d, a, -1),
+          volume_form(surface_volume(c, a, 1), d, a, 1)};
 }
 
 [[gnu::always_inline]] inline Hourglass<2> hourglass_form(const Modes<2>& c, const Modes<2>& d, const Gradients& a) {
-  return {a.a3 * a.a3 * (dot(c[p3], d[p13]) + dot(d[p3], c[p13]))};
+  return {a.a3 * a.a3 * (dot(c[p3], d[p13]) + dot(d[p3], c[p13])), volume_form(surface_volume(c, a, -1), d, a, -1), volume_form(surface_volume(c, a, 1), d, a, 1)};
 }
 
 /// p += derivative of sum Q_k strain_k by the modes.
@@ -247,12 +284,16 @@ template <class Pointer> [[gnu::always_inline]] inline Modes<2> modes_at(const N
   both(a11 * Q[6], c1, c123), both(a11 * Q[6], c13, c12);
   both(a22 * Q[7], c2, c123), both(a22 * Q[7], c23, c12);
   both(a33 * Q[8], c3, c123), both(a33 * Q[8], c13, c23);
+  pull_volume(Q[9], surface_volume(c, a, -1), a, -1, p);
+  pull_volume(Q[10], surface_volume(c, a, 1), a, 1, p);
 }
 
 [[gnu::always_inline]] inline void pull_hourglass(const Hourglass<2>& Q, const Modes<2>& c, const Gradients& a, Modes<2>& p) {
   const double q = a.a3 * a.a3 * Q[0];
   add(p[p3], q, c[p13]);
   add(p[p13], q, c[p3]);
+  pull_volume(Q[1], surface_volume(c, a, -1), a, -1, p);
+  pull_volume(Q[2], surface_volume(c, a, 1), a, 1, p);
 }
 
 /// Volume over that at rest, on the middle line at the centre; in 2D times the hoop's length.

@@ -1,6 +1,7 @@
 #include "ale/layers/layer_forces.hpp"
 
 #include "ale/layers/layer_edges.hpp"
+#include "ale/layers/layer_guard.hpp"
 #include "ale/layers/layer_rows.hpp"
 #include "core/error.hpp"
 
@@ -21,7 +22,11 @@ template <int Dim> struct LawAtRest {
   FabricStress response;
   double relief = 0;                       ///< dE33 by d(E11 + E22) without stress through the thickness
   std::array<double, 2> lost = {};         ///< strain at which a family is lost
-  Hourglass<Dim> stiffness = {}, damping = {}; ///< Pa; Pa s/m
+  std::array<double, Count<Dim>::quadratic> stiffness = {}, damping = {}; ///< Pa; Pa s/m
+  std::array<double, 3> held = {}; ///< Pa: wave moduli of the held modes at rest
+  double guard = 0;                ///< Pa
+  double wave33 = 0;               ///< m/s: through the thickness at rest
+  bool open_apart = false;         ///< no stress where it is thicker than at rest: plies that are apart do not meet
 };
 
 FabricStress response_at_rest(const FabricModel& model) {
@@ -40,16 +45,27 @@ template <int Dim> LawAtRest<Dim> law_at_rest(const LayerStack<Dim>& s) {
     const double nu = std::get<HookeSolid>(s.model).poisson;
     law.relief = -nu / (1 - nu);
   }
+  if (Dim == 2 && !s.axisymmetric) {
+    law.lost[1] = std::min(law.lost[1], 0.0); // no fill in a plane: warp decides alone
+  }
   const FabricTensor& C = law.response.tangent;
   const double through = std::max(C[2], std::min(C[0], C[1])), kappa = s.hourglass.stiffness;
-  const auto impedance = [&](std::size_t axis) { return s.hourglass.viscosity * std::sqrt(s.density * law.response.wave_modulus[axis]) / 3; };
-  const double z1 = impedance(0), z2 = impedance(1), z3 = impedance(2);
+  law.held = {kappa * C[0] / 3, kappa * C[1] / 3, kappa * through / 3};
+  law.guard = through;
+  law.wave33 = std::sqrt(C[2] / s.density);
+  law.open_apart = std::holds_alternative<RaftenbergFabric>(s.model);
+  constexpr std::size_t count = Count<Dim>::quadratic;
+  std::array<double, count> modulus, share; // share: mean square over the element of what the mode varies by
   if constexpr (Dim == 3) {
-    law.stiffness = {kappa * C[0] / 3, kappa * C[1] / 3, kappa * C[5] / 3, kappa * C[4] / 3, kappa * through / 3, kappa * through / 3, kappa * C[0] / 9, kappa * C[1] / 9, kappa * through / 9};
-    law.damping = {z1, z2, z3, z3, z3, z3, z1 / 3, z2 / 3, z3 / 3};
+    modulus = {C[0], C[1], C[5], C[4], through, through, C[0], C[1], through};
+    share = {1. / 3, 1. / 3, 1. / 3, 1. / 3, 1. / 3, 1. / 3, 1. / 9, 1. / 9, 1. / 9};
   } else {
-    law.stiffness = {kappa * through / 3};
-    law.damping = {z3};
+    modulus = {through};
+    share = {1. / 3};
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    law.stiffness[k] = kappa * modulus[k] * share[k];
+    law.damping[k] = s.hourglass.viscosity * std::sqrt(s.density * modulus[k]) * share[k];
   }
   return law;
 }
@@ -84,9 +100,13 @@ template <int Dim> struct RowScratch {
 
 /// What a row reports.
 struct RowReport {
-  long crushed = 0, eroded = 0;
+  long crushed = 0, turned = 0;
   int bad = 0; ///< elements whose stress is not finite
 };
+
+void add(RowReport& to, const RowReport& part) {
+  to.crushed += part.crushed, to.turned += part.turned, to.bad += part.bad;
+}
 
 template <int Dim> struct ElementRow {
   LayerStack<Dim>& s;
@@ -168,21 +188,6 @@ template <int Dim> void find_stress(const ElementRow<Dim>& row) {
   }
 }
 
-template <int Dim> long erode(const ElementRow<Dim>& row) {
-  const auto [warp, fill] = row.law.lost;
-  const auto at = [&row](std::size_t point, std::size_t family) { return row.s.largest[point][family].data() + row.first; };
-  const double *w0 = at(0, 0), *f0 = at(0, 1), *w1 = at(1, 0), *f1 = at(1, 1);
-  char* alive = row.s.alive.data() + row.first;
-  int eroded = 0;
-#pragma omp simd reduction(+ : eroded)
-  for (int i = 0; i < row.sizes.count; ++i) {
-    const bool lost = (w0[i] >= warp) & (f0[i] >= fill) & (w1[i] >= warp) & (f1[i] >= fill) & (alive[i] != 0);
-    eroded += lost ? 1 : 0;
-    alive[i] = lost ? char{0} : alive[i];
-  }
-  return eroded;
-}
-
 /// Stresses of the strains that do work, times the volume.
 template <int Dim> [[gnu::always_inline]] inline Strains<Dim> work_stress(const RowScratch<Dim>& w, int i, double V) {
   const auto both = [&](std::size_t k) __attribute__((always_inline)) { return V * (0.5 * (w.stress[0][k][i] + w.stress[1][k][i])); };
@@ -194,7 +199,11 @@ template <int Dim> [[gnu::always_inline]] inline Strains<Dim> work_stress(const 
   }
 }
 
-template <int Dim> int find_corner_forces(const ElementRow<Dim>& row) {
+struct CornerReport {
+  int bad = 0, turned = 0;
+};
+
+template <int Dim> CornerReport find_corner_forces(const ElementRow<Dim>& row) {
   constexpr bool three = Dim == 3;
   const RowSizes sizes = row.sizes;
   const LawAtRest<Dim> law = row.law;
@@ -204,14 +213,19 @@ template <int Dim> int find_corner_forces(const ElementRow<Dim>& row) {
   const char* alive = row.s.alive.data() + row.first;
   const auto Q_out = row.Q_out;
   const auto H_out = row.H_out;
-  const double h3 = 2 / sizes.a3, h2 = three ? 2 / sizes.a2 : 0.0;
-  int bad = 0;
+  const double h3 = 2 / sizes.a3, h2 = three ? 2 / sizes.a2 : 0.0, least = row.s.guard.volume;
+  const auto wave = w.wave[0]; // the faster point's is found here
+  const auto wave_up = w.wave[1];
+  const double quadratic = row.s.viscosity.quadratic, linear = row.s.viscosity.linear, density = row.s.density;
+  double* shock = row.s.shock_volume.data() + row.first;
+  constexpr std::size_t at33 = three ? static_cast<std::size_t>(s33) : static_cast<std::size_t>(e33);
+  int bad = 0, turned = 0;
 #pragma GCC ivdep
   for (int i = 0; i < sizes.count; ++i) {
     const Gradients a = sizes.gradients(i, three);
     const Modes<Dim> c = modes_at(x, i), c_rate = modes_at(v, i);
     const double V = alive[i] != 0 ? sizes.volume(i) : 0.0; // an eroded element has strain 0, hence finite stress
-    const Strains<Dim> Q = work_stress<Dim>(w, i, V);
+    Strains<Dim> Q = work_stress<Dim>(w, i, V);
     double total = 0;
 #pragma GCC unroll 9
     for (std::size_t k = 0; k < Q.size(); ++k) {
@@ -219,12 +233,30 @@ template <int Dim> int find_corner_forces(const ElementRow<Dim>& row) {
       Q_out[k][i] = Q[k];
     }
     bad += std::abs(total) < std::numeric_limits<double>::infinity() ? 0 : 1;
+    const double pressing = s33_rate(c, c_rate, a), thickness = std::sqrt(stretch_square(c, a, 2)); // dE33/dt; lambda
+    const double meeting = pressing < 0 && (thickness < 1 || !law.open_apart) ? -pressing * h3 / std::max(thickness, lost_volume) : 0.0;
+    const double speed = quadratic * meeting + linear * law.wave33;
+    shock[i] = -V * density * meeting * speed / std::max(thickness, lost_volume);
+    Q[at33] += shock[i];
     Hourglass<Dim> H = hourglass_form(c, c, a);
     const Hourglass<Dim> rate = hourglass_form(c, c_rate, a);
 #pragma GCC unroll 9
-    for (std::size_t k = 0; k < H.size(); ++k) {
+    for (std::size_t k = 0; k < Count<Dim>::quadratic; ++k) {
       const double h = three && (k == 0 || k == 6) ? 2 / a.a1 : three && (k == 1 || k == 7) ? h2 : h3;
       H[k] = V * (0.5 * law.stiffness[k] * H[k] + law.damping[k] * h * rate[k]);
+    }
+    const double J0 = H[Count<Dim>::quadratic] / Dim, J1 = H[Count<Dim>::quadratic + 1] / Dim;
+    H[Count<Dim>::quadratic] = 0.5 * V * guard_slope(J0, least) * law.guard;
+    H[Count<Dim>::quadratic + 1] = 0.5 * V * guard_slope(J1, least) * law.guard;
+    turned += V > 0 && (J0 <= 0 || J1 <= 0) ? 1 : 0;
+    const std::array<double, 3> stiffer = guard_waves<Dim>(c, a, J0, J1, least);
+    for (std::size_t k = 0; k < 3; ++k) {
+      wave[k][i] = std::max(std::max(wave[k][i], wave_up[k][i]), law.held[k] * stretch_square(c, a, k)) + law.guard * stiffer[k];
+    }
+    const double damped = (meeting > 0 ? speed : 0.0) + std::sqrt((meeting > 0 ? speed * speed : 0.0) + wave[2][i] / density);
+    wave[2][i] = density * damped * damped;
+#pragma GCC unroll 11
+    for (std::size_t k = 0; k < H.size(); ++k) {
       H_out[k][i] = H[k];
     }
     Modes<Dim> p = {};
@@ -232,14 +264,13 @@ template <int Dim> int find_corner_forces(const ElementRow<Dim>& row) {
     pull_hourglass(H, c, a, p);
     corner_forces(p, low, high, i);
   }
-  return bad;
+  return {bad, turned};
 }
 
-/// Largest stable step of each element: sum over the axes of c^2/h^2 at the faster point.
+/// Largest stable step of each element: sum over the axes of c^2/h^2, c of the faster point, held modes and guard.
 template <int Dim> void find_steps(const ElementRow<Dim>& row) {
   const RowSizes sizes = row.sizes;
-  const auto& w0 = row.w.wave[0];
-  const auto& w1 = row.w.wave[1];
+  const auto& wave = row.w.wave[0];
   const char* alive = row.s.alive.data() + row.first;
   const double* lightest = row.s.at_rest.lightest.data();
   double* out = row.s.wave_step.data() + row.first;
@@ -247,7 +278,7 @@ template <int Dim> void find_steps(const ElementRow<Dim>& row) {
 #pragma GCC ivdep
   for (int i = 0; i < sizes.count; ++i) {
     const Gradients a = sizes.gradients(i, Dim == 3);
-    const double squares = std::max(w0[0][i], w1[0][i]) * a.a1 * a.a1 + std::max(w0[1][i], w1[1][i]) * a.a2 * a.a2 + std::max(w0[2][i], w1[2][i]) * a.a3 * a.a3;
+    const double squares = wave[0][i] * a.a1 * a.a1 + wave[1][i] * a.a2 * a.a2 + wave[2][i] * a.a3 * a.a3;
     const double step = 1 / std::sqrt(quarter * lightest[i] * std::max(squares, 1e-200)); // slack without shear: no limit
     out[i] = alive[i] != 0 ? step : std::numeric_limits<double>::infinity();
   }
@@ -280,8 +311,8 @@ template <int Dim> RowReport update_row(LayerStack<Dim>& s, const LawAtRest<Dim>
     find_rates(row, dt);
   }
   find_stress(row);
-  report.eroded = erode(row);
-  report.bad = find_corner_forces(row);
+  const CornerReport corners = find_corner_forces(row);
+  report.bad = corners.bad, report.turned = corners.turned;
   find_steps(row);
   gather(row, j, level);
   return report;
@@ -304,12 +335,33 @@ template <int Dim> [[noreturn]] void fail(const LayerStack<Dim>& s) {
   throw NumericalFailure(fmt::format("{}: a stress is not finite", s.name));
 }
 
-/// Energies of the elements just eroded, in their order.
-template <int Dim> void book_eroded(const LayerStack<Dim>& s, const std::vector<char>& before, LayerLedger& ledger) {
-  for (std::size_t e = 0; e < before.size(); ++e) {
-    if (before[e] != 0 && s.alive[e] == 0) {
-      ledger.eroded_energy += s.energy[e];
-      ++ledger.eroded_elements;
+template <int Dim> bool is_lost(const LayerStack<Dim>& s, const LawAtRest<Dim>& law, std::size_t e) {
+  bool lost = true;
+  for (std::size_t point = 0; point < 2 && lost; ++point) {
+    for (std::size_t family = 0; family < 2 && lost; ++family) {
+      lost = s.largest[point][family][e] >= law.lost[family];
+    }
+  }
+  return lost;
+}
+
+/// Erodes a layer where all its elements through the thickness have lost both families: it has a hole then, seen from both sides.
+template <int Dim> void erode(LayerStack<Dim>& s, const LawAtRest<Dim>& law, LayerLedger& ledger) {
+  const int through = s.grid.through;
+  const std::size_t level = s.element_count() / static_cast<std::size_t>(s.grid.levels());
+  for (int layer = 0; layer < s.grid.layers; ++layer) {
+    const std::size_t first = s.element(0, 0, layer * through);
+    for (std::size_t e = first; e < first + level; ++e) {
+      int lost = 0;
+      while (lost < through && s.alive[e] != 0 && is_lost(s, law, e + static_cast<std::size_t>(lost) * level)) {
+        ++lost;
+      }
+      for (int l = 0; l < through && lost == through; ++l) {
+        const std::size_t k = e + static_cast<std::size_t>(l) * level;
+        s.alive[k] = 0;
+        ledger.eroded_energy += s.energy[k];
+        ++ledger.eroded_elements;
+      }
     }
   }
 }
@@ -321,7 +373,7 @@ template <int Dim> void update_forces(LayerStack<Dim>& s, double dt, LayerLedger
     std::fill(component.begin(), component.end(), 0.0);
   }
   const LawAtRest<Dim> law = law_at_rest(s);
-  const std::vector<char> alive_before = s.alive;
+  erode(s, law, ledger);
   std::vector<RowReport> reports(static_cast<std::size_t>(pool.size()));
   // Rows of one colour share no node; colours follow each other in order, so each node's sum has one order.
   const int across = Dim == 3 ? 2 : 1;
@@ -333,20 +385,18 @@ template <int Dim> void update_forces(LayerStack<Dim>& s, double dt, LayerLedger
       RowReport& sum = reports[static_cast<std::size_t>(thread)];
       for (int row = begin; row < end; ++row) {
         const RowReport r = update_row(s, law, scratch, row % js * across + odd_j, row / js * 2 + odd_level, dt);
-        sum.crushed += r.crushed, sum.eroded += r.eroded, sum.bad += r.bad;
+        add(sum, r);
       }
     });
   }
   RowReport all;
   for (const RowReport& r : reports) {
-    all.crushed += r.crushed, all.eroded += r.eroded, all.bad += r.bad;
+    add(all, r);
   }
   ledger.crushed += all.crushed;
+  ledger.turned_over += all.turned;
   if (all.bad > 0) {
     fail(s);
-  }
-  if (all.eroded > 0) {
-    book_eroded(s, alive_before, ledger);
   }
   add_edge_forces(s);
 }

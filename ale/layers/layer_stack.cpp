@@ -67,6 +67,12 @@ void check_input(const LayerInput& in, int dim) {
   if (!(h.stiffness >= 0 && h.stiffness <= 1 && h.viscosity >= 0 && h.viscosity <= 0.5)) {
     throw Error(fmt::format("{}: hourglass stiffness {} must lie in 0 to 1, viscosity {} in 0 to 0.5", in.name, h.stiffness, h.viscosity));
   }
+  if (!(in.viscosity.quadratic >= 0 && in.viscosity.linear >= 0)) {
+    throw Error(fmt::format("{}: viscosity {} and {} must not be negative", in.name, in.viscosity.quadratic, in.viscosity.linear));
+  }
+  if (!(in.guard.shortest >= 0 && in.guard.shortest < 1 && in.guard.volume >= 0 && in.guard.volume < 1)) {
+    throw Error(fmt::format("{}: guard's shortest {} and volume {} must lie in 0 to 1", in.name, in.guard.shortest, in.guard.volume));
+  }
 }
 
 /// Halves of the intervals beside each line; around an axis whole rings over 2 pi r dr.
@@ -114,7 +120,7 @@ template <int Dim> void allocate(LayerStack<Dim>& s) {
   if (wants_rate(s.model)) {
     s.rate = s.largest;
   }
-  for (auto* field : {&s.energy, &s.hourglass_energy, &s.wave_step}) {
+  for (auto* field : {&s.energy, &s.hourglass_energy, &s.shock_heat, &s.wave_step, &s.shock_volume}) {
     field->assign(elements, 0.0);
   }
   s.alive.assign(elements, 1);
@@ -158,6 +164,8 @@ template <int Dim> LayerStack<Dim> make_stack(const LayerInput& input) {
   s.model = input.model;
   s.density = density(input.model);
   s.hourglass = input.hourglass;
+  s.guard = input.guard;
+  s.viscosity = input.viscosity;
   s.edge = input.edge;
   s.edge_stiffness = input.edge_stiffness;
   s.lines = input.lines;

@@ -28,8 +28,23 @@ enum class LayerEdge {
 
 /// Stabilisation of the element's modes that have no strain at its points (ale/layers/layer_element).
 struct LayerHourglass {
-  double stiffness = 0.05; ///< of the moduli at rest; through the thickness at least the weaker yarns': cloth is soft until pressed
-  double viscosity = 0.05; ///< of rho c h, c the fastest wave at rest
+  double stiffness = 0.2; ///< of the moduli at rest; through the thickness at least the weaker yarns': cloth is soft until pressed
+  double viscosity = 0;   ///< of rho c h, c the fastest wave at rest
+};
+
+/// Artificial viscosity through the thickness: a law that stiffens as it is pressed makes shocks, and what they waste is heat. Without it the
+/// layers hand an impact on as the balls of Newton's cradle do and the last one leaves faster than what struck. A pressure
+/// density v (quadratic v + linear c), v the speed at which the faces come together, c the wave at rest; only of pressed elements.
+struct LayerViscosity {
+  double quadratic = 1.5;
+  double linear = 0.06;
+};
+
+/// What keeps elements from turning inside out where their law lets them: cloth pressed in its plane costs nothing, weak shear
+/// through the thickness lets a side pass the other. In compression beyond, as no fabric is.
+struct LayerGuard {
+  double shortest = 0.2; ///< of its length at rest: an edge in the plane closes no further, an impact (ale/layers/layer_folds); 0: no end
+  double volume = 0.1;   ///< of that at rest, in the middle of both surfaces: pressure K (volume/J - 1) below, K the thickness' modulus of LayerHourglass; 0: none
 };
 
 /// How the elements of a stack lie side by side.
@@ -52,7 +67,7 @@ struct LayerRest {
 
 template <int Dim> struct LayerStack {
   /// Of an element: strains that do work, modes without strain (ale/layers/layer_element).
-  static constexpr std::size_t strains = Dim == 3 ? 9 : 6, hourglass_modes = Dim == 3 ? 9 : 1;
+  static constexpr std::size_t strains = Dim == 3 ? 9 : 6, hourglass_modes = Dim == 3 ? 11 : 3;
 
   std::string name = "layers";
   LayerGrid grid;
@@ -60,6 +75,8 @@ template <int Dim> struct LayerStack {
   FabricModel model;
   double density = 0; ///< at rest, kg/m3
   LayerHourglass hourglass;
+  LayerGuard guard;
+  LayerViscosity viscosity;
   std::array<std::array<LayerEdge, 2>, 2> edge = {{{LayerEdge::free, LayerEdge::free}, {LayerEdge::free, LayerEdge::free}}}; ///< [axis][low, high]
   double edge_stiffness = 0; ///< of elastic edges, N/m for a metre of edge (3D, and around an axis a metre of its circle)
 
@@ -74,6 +91,7 @@ template <int Dim> struct LayerStack {
   std::array<std::array<std::vector<double>, 2>, 2> largest; ///< [point][warp, fill] largest Green strain so far
   std::vector<double> energy;           ///< J: internal, work of the element's stresses
   std::vector<double> hourglass_energy; ///< J: of its stabilisation
+  std::vector<double> shock_heat;       ///< J: of its artificial viscosity
   std::vector<double> wave_step;        ///< s: largest stable step of the element, at `force`'s strains
   std::vector<char> alive;              ///< 0: eroded, its mass stays at its nodes
 
@@ -83,6 +101,7 @@ template <int Dim> struct LayerStack {
   // Rows of elements one after the other, in each all strains, i fastest: apart, as many streams would meet in one cache set.
   std::vector<double> stress_volume;    ///< J: stress of each strain times the volume at rest
   std::vector<double> hourglass_volume; ///< J: likewise
+  std::vector<double> shock_volume;     ///< J: of the viscosity, by element
   std::array<std::vector<double>, Dim> kept_velocity;                ///< before contact, m/s: for the account
   std::array<std::array<std::vector<double>, 2>, 2> rate;            ///< [point][warp, fill] smoothed dE/dt, 1/s; empty unless the law wants it
   double rate_time = 1e-6;                                           ///< s: over which it is smoothed
@@ -115,6 +134,8 @@ struct LayerLedger {
   std::array<double, 3> edge_impulse = {0, 0, 0}; ///< given to the stack by held edges
   long eroded_elements = 0;
   long crushed = 0;              ///< element-steps whose volume fell below a twentieth of that at rest
+  long turned_over = 0;          ///< element-steps with a surface inside out
+  long behind = 0;               ///< node-steps inside the next layer or a block without contact: come in past an edge, through a hole; not in `deepest`
   double deepest = 0;            ///< m: largest penetration of neighbouring layers seen
   double edge_loss = 0;          ///< kinetic energy of nodes that a held edge stopped at the start
   double step_change = 0;        ///< what the account's kinetic energy lost where a step was longer than the one before
@@ -131,6 +152,8 @@ struct LayerInput {
   std::array<std::array<LayerEdge, 2>, 2> edge = {{{LayerEdge::free, LayerEdge::free}, {LayerEdge::free, LayerEdge::free}}};
   double edge_stiffness = 0;
   LayerHourglass hourglass = {};
+  LayerGuard guard = {};
+  LayerViscosity viscosity = {};
 };
 
 /// A stack at rest, its forces zero. Nodes weigh density times the corner volumes of their bricks: the sum is exact.

@@ -2,6 +2,7 @@
 
 #include "ale/layers/layer_account.hpp"
 #include "ale/layers/layer_edges.hpp"
+#include "ale/layers/layer_folds.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -77,6 +78,7 @@ template <int Dim> void stop_at_axis(LayerStack<Dim>& s, double dt) {
 template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact) {
   kick(s, dt / 2, ledger, pool);
   keep_velocity(s);
+  stop_folds(s, dt, held_nodes(s), ledger, pool);
   if (contact) {
     contact();
   }
@@ -115,6 +117,7 @@ template <int Dim> LayerTotals totals(const LayerStack<Dim>& s) {
   for (std::size_t e = 0; e < s.element_count(); ++e) {
     t.internal += s.energy[e];
     t.hourglass += s.hourglass_energy[e];
+    t.shock_heat += s.shock_heat[e];
   }
   return t;
 }

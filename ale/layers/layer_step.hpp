@@ -5,7 +5,7 @@
 //   update_forces (ale/layers/layer_forces)
 //   kick   v = v_half + dt/2 f/m
 // Work is booked at v_half after contact with the forces at both ends of the drift (ale/layers/layer_account):
-// leapfrog_kinetic + internal + hourglass of the totals and edge_work + edge_loss + contact_loss + step_change of the ledger keep to
+// leapfrog_kinetic + internal + hourglass + shock_heat of the totals and edge_work + edge_loss + contact_loss + step_change of the ledger keep to
 // round-off for any steps. Positions and velocities are those of velocity Verlet; only the account is that of leapfrog.
 #pragma once
 
@@ -45,6 +45,7 @@ struct LayerTotals {
   double mass = 0;
   double kinetic = 0;                 ///< J: m v^2/2 of the velocities at the time of the positions
   double internal = 0, hourglass = 0; ///< J: work of the elements' stresses; of their stabilisation, its viscous heat too
+  double shock_heat = 0;              ///< J: of the artificial viscosity
   std::array<double, 3> momentum = {}, angular_momentum = {}; ///< in a plane the moment stands in [2]
   double leapfrog_kinetic = 0;        ///< J: that of the account (ale/layers/layer_account); (step x frequency)^2/4 of a wave's energy away from `kinetic`
   /// Of internal energy: to be below 5 %.

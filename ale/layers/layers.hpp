@@ -20,6 +20,7 @@ template <int Dim> struct Layers {
   std::vector<ContactState<Dim>> with_blocks; ///< by block, side and layer, as ale/layer_coupling counts them
   double closing = 0;   ///< largest approach in a substep by a layer's thickness
   long steps = 0;       ///< substeps so far
+  double seconds = 0, contact_seconds = 0; ///< s of the clock on the wall, this run: steps of the layers with contact; contact
 };
 
 } // namespace ballast

@@ -22,6 +22,7 @@ struct Bar {
   BarMaterial material;
   double from;
   std::vector<double> force, none;
+  std::array<std::vector<double>, 2> half; ///< of the velocity at the step's start
 
   Bar(int c, int r, int e, BarMaterial m, double y, double speed) : columns(c), rows(r), end(e), material(m), from(y) {
     for (int j = 0; j <= rows; ++j) {
@@ -103,10 +104,16 @@ void kick(Bar& bar, Mover mover, const std::array<std::vector<double>, 2>& v, do
   bar.nodes.x = x;
   face = bar.face();
   if (mover == Mover::mean) {
+    bar.half = v;
     for (std::size_t d = 0; d < 2; ++d) {
-      face.velocity_n[d] = v[d].data() + (face.velocity[d] - bar.nodes.v[d].data());
+      for (double& u : bar.half[d]) {
+        u *= 0.5;
+      }
+      const auto first = face.velocity[d] - bar.nodes.v[d].data();
+      face.velocity_n[d] = v[d].data() + first;
+      face.fixed[d] = bar.half[d].data() + first;
     }
-    face.weight = face.weight_n = 0.5;
+    face.weight = 0.5;
   }
 }
 

@@ -45,6 +45,7 @@ Press press(const FabricModel& model, int layers, double share, double step_swin
   constexpr double width = 1e-3, height = 2e-3;
   LayerInput in = brick(model, {2, 1, layers}, {0.5 * width, 1, height / layers}, 2);
   in.edge[0] = {LayerEdge::symmetry, LayerEdge::symmetry};
+  in.viscosity = {0, 0};
   LayerStack<2> s = make_stack<2>(in);
   ThreadPool pool(1);
   LayerLedger ledger;
@@ -76,7 +77,7 @@ Press press(const FabricModel& model, int layers, double share, double step_swin
   const LayerTotals t = totals(s);
   const Stored stored = stored_energy(s);
   EXPECT_NEAR(total_energy(s, ledger), 0, 1e-12 * t.internal);
-  return {t.internal, t.hourglass, stored.strain, ledger.contact_loss + work, work, t.leapfrog_kinetic, plates[1].position[1][0] - plates[0].position[1][0]};
+  return {t.internal, t.hourglass + t.shock_heat, stored.strain, ledger.contact_loss + work, work, t.leapfrog_kinetic, plates[1].position[1][0] - plates[0].position[1][0]};
 }
 
 // What the plates give is strain energy and contact takes nothing, at even steps and at steps between half and the whole of the stable one.
@@ -161,6 +162,7 @@ TEST(LayerAccount, RingsStopAtTheAxis) {
   LayerInput in = brick(fabric_laws::paper(), {8, 1, 2}, {1e-3, 1, 0.5e-3}, 2);
   in.axisymmetric = true;
   in.edge[0] = {LayerEdge::symmetry, LayerEdge::free};
+  in.guard = {0, 0}; // they would stop it before
   LayerStack<2> s = make_stack<2>(in);
   place(s, s.velocity, [](std::array<double, 2> X) -> std::array<double, 2> { return {X[0] > 0 ? -100.0 : 0.0, 0}; });
   ThreadPool pool(1);

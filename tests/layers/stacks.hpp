@@ -55,7 +55,7 @@ template <int Dim, class Field, class Map> void place(const LayerStack<Dim>& s, 
 
 template <int Dim> double total_energy(const LayerStack<Dim>& s, const LayerLedger& ledger) {
   const LayerTotals t = totals(s);
-  return t.leapfrog_kinetic + t.internal + t.hourglass + ledger.edge_work + ledger.edge_loss + ledger.contact_loss + ledger.step_change;
+  return t.leapfrog_kinetic + t.internal + t.hourglass + t.shock_heat + ledger.edge_work + ledger.edge_loss + ledger.contact_loss + ledger.step_change;
 }
 
 /// Energy that a stack's shape holds: by the law's own strain energy at the points, and of the held modes' stiffness (2D), J.

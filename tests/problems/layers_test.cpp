@@ -37,13 +37,19 @@ TEST(Layers, TwoOfArealDensityThicknessAndDensityGiveTheThird) {
   EXPECT_NEAR(a.density(), 800, 1e-12);
   const LayersSpec b = with({set("density=900 kg/m3"), set("thickness=5 mm")});
   EXPECT_NEAR(b.areal_density(), 4.5, 1e-14);
-  const LayersSpec c = with({set("areal_density=450 g/m2"), set("density=900 kg/m3"), set("plies=5")});
+  const LayersSpec c = with({set("areal_density=450 g/m2"), set("density=900 kg/m3"), set("layers=2")});
   EXPECT_NEAR(c.thickness, 0.5e-3, 1e-18);
+  EXPECT_EQ(c.plies, 2); // of 0.18 kg/m2
   const LayersSpec plies = with({set("plies=58")}); // of 0.23 mm and 0.18025 kg/m2
   EXPECT_NEAR(plies.thickness, 2 * 6.67e-3, 1e-15);
   EXPECT_NEAR(plies.areal_density(), 2 * 5.2272, 1e-12);
-  const LayersSpec thin = with({set("thickness=4 mm")}); // the same cloth, pressed
+  const LayersSpec thin = with({set("thickness=4 mm")}); // the same plies, thinner: as much load of a width
   EXPECT_NEAR(thin.areal_density(), 5.2272, 1e-12);
+  const auto& as_named = std::get<RaftenbergFabric>(plies.model);
+  const auto& denser = std::get<RaftenbergFabric>(thin.model);
+  EXPECT_NEAR(denser.warp.fit.c * thin.thickness, as_named.warp.fit.c * 6.67e-3, 1e-9 * as_named.warp.fit.c);
+  EXPECT_NEAR(denser.in_plane.modulus * thin.thickness, as_named.in_plane.modulus * 6.67e-3, 1e-9 * as_named.in_plane.modulus);
+  EXPECT_EQ(denser.transverse.a, as_named.transverse.a);
   // Three that agree to their printed digits.
   EXPECT_NEAR(with({set("areal_density=5.227 kg/m2"), set("thickness=6.67 mm"), set("density=783.7 kg/m3")}).density(), 783.7, 1e-9);
 }

@@ -66,7 +66,7 @@ Sums sums(const Scene<2>& scene) {
   const Totals b = totals(scene.blocks[0]);
   const LayerTotals l = totals(scene.layers[0].stack);
   const LayerLedger& ledger = scene.layers[0].ledger;
-  return {b.momentum[1] + l.momentum[1], b.kinetic_energy + b.internal() + l.leapfrog_kinetic + l.internal + l.hourglass + ledger.contact_loss + ledger.step_change, b.kinetic_energy + l.kinetic};
+  return {b.momentum[1] + l.momentum[1], b.kinetic_energy + b.internal() + l.leapfrog_kinetic + l.internal + l.hourglass + l.shock_heat + ledger.contact_loss + ledger.step_change, b.kinetic_energy + l.kinetic};
 }
 
 void go(Scene<2>& scene, double end) {

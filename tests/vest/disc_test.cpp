@@ -67,7 +67,7 @@ TEST(DiscOnVest, InternalEnergyIsThatOfTheStrain) {
     worst = std::max(worst, std::abs(t.internal - stored.strain));
     EXPECT_GE(t.hourglass, stored.held - 1e-3 * most); // the rest is heat of its viscosity
     const Totals b = totals(scene.blocks[0]);
-    EXPECT_NEAR(b.kinetic_energy + b.internal() + t.leapfrog_kinetic + t.internal + t.hourglass + ledger.contact_loss + ledger.step_change, start, 1e-12 * kinetic);
+    EXPECT_NEAR(b.kinetic_energy + b.internal() + t.leapfrog_kinetic + t.internal + t.hourglass + t.shock_heat + ledger.contact_loss + ledger.step_change, start, 1e-12 * kinetic);
   }
   EXPECT_EQ(ledger.eroded_elements, 0);
   EXPECT_GT(most, 0.02 * kinetic);
