@@ -149,28 +149,26 @@ template <int Dim> void go_to(const Block<Dim>& b, const std::array<RowField, Di
   });
 }
 
-/// Of cells of less quality than this (against the initial mesh; stretched to 6.5 times the width: 0.3) smoothing may make none worse: harmonic
-/// displacements know nothing of volumes, and beside a concave free side would press cells to slivers.
-constexpr double poor = 0.3;
-
-/// Cells that the target makes poor, or poorer than they are, ascending.
-template <int Dim> std::vector<std::array<int, 3>> spoilt_cells(const Block<Dim>& b, const std::array<RowField, Dim>& target, ThreadPool& pool) {
+/// Cells that the target would turn inside out, or near it, or make thinner where they are thin (less than `thin` and than most of what they were at
+/// first), ascending; but none that it mends. Harmonic displacements know nothing of volumes: beside a concave free side they would press cells to slivers.
+template <int Dim> std::vector<std::array<int, 3>> spoilt_cells(const Block<Dim>& b, double thin, const std::array<RowField, Dim>& target, ThreadPool& pool) {
+  constexpr double poor = 0.02, thinned = 0.7, rounding = 1e-9;
   const Grid& g = b.grid;
   std::vector<std::vector<std::array<int, 3>>> by_slab(static_cast<std::size_t>(g.slabs()));
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
     const auto n = static_cast<std::size_t>(g.cells[0]);
-    std::vector<double> then(n), now(n);
+    std::vector<double> shape(n), shape_now(n), width(n), width_now(n), width_home(n);
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
-        row_quality(g, target, b.home, j, k, then.data());
-        if (*std::min_element(then.begin(), then.end()) > poor) {
-          continue;
-        }
-        row_quality(g, b.position, b.home, j, k, now.data());
+        row_quality(g, target, b.home, j, k, shape.data());
+        row_quality(g, b.position, b.home, j, k, shape_now.data());
+        row_thickness<Dim>(g, target, j, k, width.data());
+        row_thickness<Dim>(g, b.position, j, k, width_now.data());
+        row_thickness<Dim>(g, b.home, j, k, width_home.data());
         for (std::size_t i = 0; i < n; ++i) {
-          constexpr double rounding = 1e-9;
-          if (!(then[i] > std::min(poor, now[i] * (1 - rounding)))) {
+          const auto worse = [&](double then, double now, double bound) { return !(then > std::min(bound, now - rounding * std::abs(now))); };
+          if (worse(shape[i], shape_now[i], poor) || worse(width[i], width_now[i], std::min(thin, thinned * width_home[i]))) {
             by_slab[static_cast<std::size_t>(s)].push_back({static_cast<int>(i), j, k});
           }
         }
@@ -245,9 +243,11 @@ template <int Dim> void relax_target(Block<Dim>& b, ThreadPool& pool) {
   }
   turn<Dim>(b, u, true, pool);
   go_to<Dim>(b, u, b.target, pool);
+  constexpr double margin = 1.5;
+  const double thin = margin * least_thickness<Dim>(g, b.position, pool);
   constexpr int tries = 16; // each lets go of a wider neighbourhood of the spoilt cells
   for (int n = 0; n < tries; ++n) {
-    const auto spoilt = spoilt_cells<Dim>(b, b.target, pool);
+    const auto spoilt = spoilt_cells<Dim>(b, thin, b.target, pool);
     if (spoilt.empty()) {
       return;
     }
