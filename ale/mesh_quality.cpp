@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace ballast {
@@ -111,20 +112,50 @@ void row_quality(const Grid& g, const std::array<RowField, 3>& mesh, const std::
   }
 }
 
-template <int Dim>
-double mesh_quality(const Grid& g, const std::array<RowField, Dim>& mesh, const std::array<RowField, Dim>& reference, ThreadPool& pool) {
-  std::vector<double> least(static_cast<std::size_t>(g.slabs()), 1.0);
+template <int Dim> void row_thickness(const Grid& g, const std::array<RowField, Dim>& mesh, int j, int k, double* thickness) {
+  for (int i = 0; i < g.cells[0]; ++i) {
+    double t[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, Dim == 2 ? 1.0 : 0.0}}; // mid lines [axis][component]; in 2D a unit across the plane
+    for (int c = 0; c < (1 << Dim); ++c) {
+      const int r = g.node_row(j + (c >> 1 & 1), k + (c >> 2));
+      for (int a = 0; a < Dim; ++a) {
+        for (std::size_t d = 0; d < Dim; ++d) {
+          t[a][d] += ((c >> a & 1) != 0 ? 1 : -1) * mesh[d].row(r)[i + (c & 1)] / (1 << (Dim - 1));
+        }
+      }
+    }
+    double side[3], largest = 0, content = 0;
+    for (int a = 0; a < Dim; ++a) {
+      cross(t[(a + 1) % 3], t[(a + 2) % 3], side);
+      content = dot(t[a], side);
+      largest = std::max(largest, dot(side, side));
+    }
+    thickness[i] = largest > 0 ? content / std::sqrt(largest) : 0.0;
+  }
+}
+
+/// Least of what row(j, k, values) gives for all rows of cells.
+template <class Row> double least_of(const Grid& g, ThreadPool& pool, double most, Row&& row) {
+  std::vector<double> least(static_cast<std::size_t>(g.slabs()), most);
   parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
-    std::vector<double> row(static_cast<std::size_t>(g.cells[0]));
+    std::vector<double> values(static_cast<std::size_t>(g.cells[0]));
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
-        row_quality(g, mesh, reference, j, k, row.data());
-        least[static_cast<std::size_t>(s)] = std::min(least[static_cast<std::size_t>(s)], *std::min_element(row.begin(), row.end()));
+        row(j, k, values.data());
+        least[static_cast<std::size_t>(s)] = std::min(least[static_cast<std::size_t>(s)], *std::min_element(values.begin(), values.end()));
       }
     }
   });
   return *std::min_element(least.begin(), least.end());
+}
+
+template <int Dim>
+double mesh_quality(const Grid& g, const std::array<RowField, Dim>& mesh, const std::array<RowField, Dim>& reference, ThreadPool& pool) {
+  return least_of(g, pool, 1.0, [&](int j, int k, double* out) { row_quality(g, mesh, reference, j, k, out); });
+}
+
+template <int Dim> double least_thickness(const Grid& g, const std::array<RowField, Dim>& mesh, ThreadPool& pool) {
+  return least_of(g, pool, std::numeric_limits<double>::infinity(), [&](int j, int k, double* out) { row_thickness<Dim>(g, mesh, j, k, out); });
 }
 
 template <int Dim>
@@ -156,6 +187,10 @@ double largest_stray(const Grid& g, const std::array<RowField, Dim>& mesh, const
   return *std::max_element(largest.begin(), largest.end());
 }
 
+template void row_thickness<2>(const Grid&, const std::array<RowField, 2>&, int, int, double*);
+template void row_thickness<3>(const Grid&, const std::array<RowField, 3>&, int, int, double*);
+template double least_thickness<2>(const Grid&, const std::array<RowField, 2>&, ThreadPool&);
+template double least_thickness<3>(const Grid&, const std::array<RowField, 3>&, ThreadPool&);
 template double largest_stray<2>(const Grid&, const std::array<RowField, 2>&, const std::array<RowField, 2>&, ThreadPool&);
 template double largest_stray<3>(const Grid&, const std::array<RowField, 3>&, const std::array<RowField, 3>&, ThreadPool&);
 template double mesh_quality<2>(const Grid&, const std::array<RowField, 2>&, const std::array<RowField, 2>&, ThreadPool&);

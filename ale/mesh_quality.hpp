@@ -17,6 +17,13 @@ namespace ballast {
 void row_quality(const Grid& grid, const std::array<RowField, 2>& mesh, const std::array<RowField, 2>& reference, int j, int k, double* quality);
 void row_quality(const Grid& grid, const std::array<RowField, 3>& mesh, const std::array<RowField, 3>& reference, int j, int k, double* quality);
 
+/// Thickness (m) of each cell of row (j, k): content of the box of its mid lines by the largest of that box's sides, about what the step may cross in
+/// it; below 0 where it has turned inside out. In RZ of the meridian plane.
+template <int Dim> void row_thickness(const Grid& grid, const std::array<RowField, Dim>& mesh, int j, int k, double* thickness);
+
+/// Thickness of the thinnest cell, m.
+template <int Dim> double least_thickness(const Grid& grid, const std::array<RowField, Dim>& mesh, ThreadPool& pool);
+
 /// Least quality of the mesh's corners against the reference mesh. In RZ of the meridian plane.
 template <int Dim>
 double mesh_quality(const Grid& grid, const std::array<RowField, Dim>& mesh, const std::array<RowField, Dim>& reference, ThreadPool& pool);

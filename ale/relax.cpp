@@ -149,31 +149,49 @@ template <int Dim> void go_to(const Block<Dim>& b, const std::array<RowField, Di
   });
 }
 
-/// The nodes of cells of less quality than `enough` go back to where they are. Number of such cells. In order, by one
-/// thread: cells share nodes.
-template <int Dim> long stay_at_bad_cells(const Block<Dim>& b, double enough, std::array<RowField, Dim>& target) {
+/// Cells that the target would turn inside out, or near it, or make thinner where they are thin (less than `thin` and than most of what they were at
+/// first), ascending; but none that it mends. Harmonic displacements know nothing of volumes: beside a concave free side they would press cells to slivers.
+template <int Dim> std::vector<std::array<int, 3>> spoilt_cells(const Block<Dim>& b, double thin, const std::array<RowField, Dim>& target, ThreadPool& pool) {
+  constexpr double poor = 0.02, thinned = 0.7, rounding = 1e-9;
   const Grid& g = b.grid;
-  std::vector<std::array<int, 3>> bad;
-  std::vector<double> quality(static_cast<std::size_t>(g.cells[0]));
-  for (int k = 0; k < g.cells[2]; ++k) {
-    for (int j = 0; j < g.cells[1]; ++j) {
-      row_quality(g, target, b.home, j, k, quality.data());
-      for (int i = 0; i < g.cells[0]; ++i) {
-        if (!(quality[static_cast<std::size_t>(i)] > enough)) {
-          bad.push_back({i, j, k});
+  std::vector<std::vector<std::array<int, 3>>> by_slab(static_cast<std::size_t>(g.slabs()));
+  parallel_ranges(pool, g.slabs(), [&](int begin, int end, int) {
+    const auto n = static_cast<std::size_t>(g.cells[0]);
+    std::vector<double> shape(n), shape_now(n), width(n), width_now(n), width_home(n);
+    for (int s = begin; s < end; ++s) {
+      for (int q = 0; q < g.rows_per_slab(); ++q) {
+        const auto [j, k] = g.in_slab(s, q);
+        row_quality(g, target, b.home, j, k, shape.data());
+        row_quality(g, b.position, b.home, j, k, shape_now.data());
+        row_thickness<Dim>(g, target, j, k, width.data());
+        row_thickness<Dim>(g, b.position, j, k, width_now.data());
+        row_thickness<Dim>(g, b.home, j, k, width_home.data());
+        for (std::size_t i = 0; i < n; ++i) {
+          const auto worse = [&](double then, double now, double bound) { return !(then > std::min(bound, now - rounding * std::abs(now))); };
+          if (worse(shape[i], shape_now[i], poor) || worse(width[i], width_now[i], std::min(thin, thinned * width_home[i]))) {
+            by_slab[static_cast<std::size_t>(s)].push_back({static_cast<int>(i), j, k});
+          }
         }
       }
     }
+  });
+  std::vector<std::array<int, 3>> all;
+  for (const auto& slab : by_slab) {
+    all.insert(all.end(), slab.begin(), slab.end());
   }
-  for (const auto& [i, j, k] : bad) {
+  return all;
+}
+
+/// The nodes of these cells go back to where they are. By one thread: cells share nodes.
+template <int Dim> void stay_at(const Block<Dim>& b, const std::vector<std::array<int, 3>>& cells, std::array<RowField, Dim>& target) {
+  for (const auto& [i, j, k] : cells) {
     for (int c = 0; c < (1 << Dim); ++c) {
-      const int r = g.node_row(j + (c >> 1 & 1), k + (c >> 2));
+      const int r = b.grid.node_row(j + (c >> 1 & 1), k + (c >> 2));
       for (std::size_t d = 0; d < Dim; ++d) {
         target[d].row(r)[i + (c & 1)] = b.position[d].row(r)[i + (c & 1)];
       }
     }
   }
-  return static_cast<long>(bad.size());
 }
 
 } // namespace
@@ -225,16 +243,15 @@ template <int Dim> void relax_target(Block<Dim>& b, ThreadPool& pool) {
   }
   turn<Dim>(b, u, true, pool);
   go_to<Dim>(b, u, b.target, pool);
-  constexpr double worst = 0.02;
-  const double enough = std::min(worst, 0.5 * mesh_quality<Dim>(g, b.position, b.home, pool));
-  if (mesh_quality<Dim>(g, b.target, b.home, pool) > enough) {
-    return;
-  }
-  constexpr int tries = 16; // each lets go of a wider neighbourhood of the bad cells
+  constexpr double margin = 1.5;
+  const double thin = margin * least_thickness<Dim>(g, b.position, pool);
+  constexpr int tries = 16; // each lets go of a wider neighbourhood of the spoilt cells
   for (int n = 0; n < tries; ++n) {
-    if (stay_at_bad_cells<Dim>(b, enough, b.target) == 0) {
+    const auto spoilt = spoilt_cells<Dim>(b, thin, b.target, pool);
+    if (spoilt.empty()) {
       return;
     }
+    stay_at<Dim>(b, spoilt, b.target);
   }
   b.target = b.position;
 }

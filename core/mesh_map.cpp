@@ -50,6 +50,18 @@ std::array<double, 3> rounded(const std::array<double, 3>& q, int n) {
 
 /// Share of the lower node with weight linear from f(a) to f(b).
 double linear_share(double fa, double fb) { return (2 * fa + fb) / (3 * (fa + fb)); }
+/// The same with the square of that weight.
+double square_share(double fa, double fb) { return (3 * fa * fa + 2 * fa * fb + fb * fb) / (4 * (fa * fa + fa * fb + fb * fb)); }
+
+/// Radius of the outline at z.
+double radius_at(const std::vector<std::array<double, 2>>& outline, double z) {
+  const auto above = std::upper_bound(outline.begin(), outline.end(), z, [](double at, const auto& point) { return at < point[0]; });
+  if (above == outline.begin() || above == outline.end()) {
+    return above == outline.begin() ? outline.front()[1] : outline.back()[1];
+  }
+  const auto &a = *(above - 1), &b = *above;
+  return a[1] + (z - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
+}
 
 } // namespace
 
@@ -81,6 +93,13 @@ std::array<double, 3> place(const MeshMap& map, const std::array<double, 3>& q) 
     const auto x = rounded(q, 3);
     return {c[0] + a * x[0], c[1] + a * x[1], c[2] + a * x[2]};
   }
+  case MapKind::turned_section:
+    return {c[0] + q[0] * radius_at(map.outline, q[1]), q[1], 0};
+  case MapKind::turned: {
+    const auto x = rounded(q, 2);
+    const double radius = radius_at(map.outline, q[2]);
+    return {c[0] + radius * x[0], c[1] + radius * x[1], q[2]};
+  }
   }
   return q;
 }
@@ -99,7 +118,10 @@ int normal_component(const MeshMap& map, int axis, double at) {
     return q < 0 ? -1 : q % 2;
   }
   case MapKind::rod:
+  case MapKind::turned:
     return axis == 2 || at == 0 ? axis : -1;
+  case MapKind::turned_section:
+    return axis == 1 || at == 0 ? axis : -1;
   case MapKind::disc:
   case MapKind::ball_section:
   case MapKind::ball:
@@ -116,9 +138,13 @@ double low_share(const MeshMap& map, bool axisymmetric, int axis, double a, doub
   case MapKind::cylindrical:
     return axis == 0 ? linear_share(a, b) : 0.5;
   case MapKind::spherical:
-    return axis == 0 ? linear_share(direction(a).sin, direction(b).sin) : (3 * a * a + 2 * a * b + b * b) / (4 * (a * a + a * b + b * b));
+    return axis == 0 ? linear_share(direction(a).sin, direction(b).sin) : square_share(a, b);
   case MapKind::ball_section:
     return axis == 0 ? linear_share(a, b) : 0.5;
+  case MapKind::turned_section:
+    return axis == 0 ? linear_share(a, b) : square_share(radius_at(map.outline, a), radius_at(map.outline, b));
+  case MapKind::turned:
+    return axis == 2 ? square_share(radius_at(map.outline, a), radius_at(map.outline, b)) : 0.5;
   case MapKind::disc:
   case MapKind::rod:
   case MapKind::ball:

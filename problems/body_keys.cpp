@@ -43,8 +43,8 @@ const SectionSpec& body() {
        {.name = "use",
         .kind = choice,
         .doc =
-            "a library part; `bullet/m80` makes the bodies `core` and `jacket`, 9.525 g together",
-        .choices = {"bullet/m80"}},
+            "a library part; `bullet/m80` (9.525 g) and `bullet/m882` (8.006 g) make the bodies `core` and `jacket`",
+        .choices = {"bullet/m80", "bullet/m882"}},
        {.name = "material",
         .kind = text,
         .doc = "a named material (`ballast materials`), one of [materials], or `void`: a hole"},

@@ -18,12 +18,12 @@ const SectionSpec& mesh() {
         .kind = choice,
         .doc = "a curvilinear starting mesh and its axes. planar: `polar` (`radius`, `angle` from the x axis), `disc` (`u`, `v`); axisymmetric: "
                "`spherical` (`angle` from the axis at z > 0, `radius`), `ball` (`u` along r, `v` along z); 3d: `cylindrical` (`radius`, `angle`, `z`), `rod` (`u`, `v`, "
-               "`z`), `ball` (`u`, `v`, `w`). Angles in deg or rad; a radius starts above 0. `u`, `v`, `w` go from -1 to 1 (edge to edge) or from or to 0 (a plane of "
+               "`z`), `ball` (`u`, `v`, `w`); axisymmetric and 3d: `turned` (`u` or `u`, `v`, and `z`), the solid of an `outline` turned about z. Angles in deg or rad; a radius starts above 0. `u`, `v`, `w` go from -1 to 1 (edge to edge) or from or to 0 (a plane of "
                "symmetry through the centre), whatever the size; no cell of theirs is degenerate (docs/numerics.md 1). A side is symmetric where it is a plane "
                "through the centre, at angles that are multiples of 90 deg or u, v, w = 0, unless it says otherwise; curved and slanted sides are `free`; "
                "`symmetry` and `wall` need a plane across a coordinate axis. Not with `follow`, `numerics.sliding` or `results.target`",
         .fallback = "rectilinear",
-        .choices = {"rectilinear", "polar", "disc", "spherical", "cylindrical", "rod", "ball"}},
+        .choices = {"rectilinear", "polar", "disc", "spherical", "cylindrical", "rod", "ball", "turned"}},
        {.name = "outer_radius",
         .kind = quantity,
         .doc = "disc, rod, ball: radius of the curved edge; required there",
@@ -31,10 +31,29 @@ const SectionSpec& mesh() {
         .range = positive()},
        {.name = "centre",
         .kind = quantities,
-        .doc = "of a map; one coordinate an axis, of cylindrical and rod x and y; default the origin",
+        .doc = "of a map; one coordinate an axis, of cylindrical and rod x and y; default the origin; not of `turned`, which has a tip",
         .dimension = Dimension::length,
         .min_count = 2,
-        .max_count = 3}}};
+        .max_count = 3},
+       {.name = "outline", .kind = table, .doc = "turned: the solid that the mesh fits (below); required there"}}};
+  return spec;
+}
+
+const SectionSpec& mesh_outline() {
+  static const SectionSpec spec = {
+      "[mesh.outline]",
+      "Of a `turned` mesh: nodes with u (or the larger of u and v) = 1 lie on the outline, straight between its points; `z` goes from end to end of it unless the "
+      "deck says less: `outline = { use = \"bullet/m882\", tip = [\"0 mm\", \"0 mm\"] }` fits the bullet and nothing else.",
+      {{.name = "use", .kind = choice, .doc = "the outside of a library part", .choices = {"bullet/m80", "bullet/m882"}},
+       {.name = "file", .kind = text, .doc = "or a CSV beside the deck; header `z_mm,r_mm` (or another unit of length), `#` comments"},
+       {.name = "profile", .kind = special, .doc = "or the points here: `[[\"0 mm\", \"3 mm\"], ...]`; z rises, r above 0"},
+       {.name = "tip",
+        .kind = quantities,
+        .doc = "where its last point's z is on its axis, as a body's `tip`; default the origin",
+        .dimension = Dimension::length,
+        .min_count = 2,
+        .max_count = 3},
+       {.name = "direction", .kind = choice, .doc = "where its z points; default +z", .choices = {"+z", "-z"}}}};
   return spec;
 }
 
@@ -50,12 +69,12 @@ SectionSpec axis_spec(Dimension dimension) {
       "where they do not divide a stretch.",
       {{.name = "from",
         .kind = quantity,
-        .doc = "low end; a length, an angle or a plain number, as its axis wants",
+        .doc = "low end; a length, an angle or a plain number, as its axis wants; z of a `turned` mesh: default the outline's end",
         .dimension = dimension,
         .required = true},
        {.name = "to",
         .kind = special,
-        .doc = "high end, or a rising list of places where `size` is given; required"},
+        .doc = "high end, or a rising list of places where `size` is given; required, but for z of a `turned` mesh"},
        {.name = "size",
         .kind = special,
         .doc = "cell size at each `to` (the first stretch is uniform), or at `from` and each `to`; "

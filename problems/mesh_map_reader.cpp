@@ -24,7 +24,11 @@ constexpr NamedMap maps[] = {{"polar", Geometry::planar, MapKind::polar},
                              {"ball", Geometry::axisymmetric, MapKind::ball_section},
                              {"cylindrical", Geometry::three_d, MapKind::cylindrical},
                              {"rod", Geometry::three_d, MapKind::rod},
-                             {"ball", Geometry::three_d, MapKind::ball}};
+                             {"ball", Geometry::three_d, MapKind::ball},
+                             {"turned", Geometry::axisymmetric, MapKind::turned_section},
+                             {"turned", Geometry::three_d, MapKind::turned}};
+
+bool is_turned(MapKind kind) { return kind == MapKind::turned || kind == MapKind::turned_section; }
 
 bool has_outer_radius(MapKind kind) {
   return kind == MapKind::disc || kind == MapKind::ball_section || kind == MapKind::rod || kind == MapKind::ball;
@@ -47,6 +51,12 @@ void read_outer_radius(Deck& deck, DeckNode& mesh, const std::string& name, Mesh
 
 void read_centre(Deck& deck, DeckNode& mesh, Geometry geometry, MeshMap& map) {
   DeckNode* node = mesh.find("centre");
+  if (is_turned(map.kind)) {
+    if (node != nullptr) {
+      deck.fail_key(*node, "a turned mesh does not take it: the outline has a `tip`");
+    }
+    return;
+  }
   const bool round_z = map.kind == MapKind::cylindrical || map.kind == MapKind::rod;
   const std::size_t count = geometry == Geometry::three_d && !round_z ? 3 : 2;
   if (node == nullptr || !read_quantities(deck, *node, Dimension::length, {}, count, count)) {
@@ -97,6 +107,17 @@ bool check_square(Deck& deck, DeckNode& axis, const std::vector<double>& lines, 
   return true;
 }
 
+/// The mesh may be a piece of the solid, but has no shape beyond its ends.
+bool check_outline_ends(Deck& deck, DeckNode& axis, const std::vector<double>& lines, const Profile& outline) {
+  const double slack = 1e-9 * (outline.back()[0] - outline.front()[0]);
+  const bool low = lines.front() < outline.front()[0] - slack, high = lines.back() > outline.back()[0] + slack;
+  if (low || high) {
+    deck.fail(place_of(axis, low ? "from" : "to"), fmt::format("{:g} m is beyond the outline", low ? lines.front() : lines.back()),
+              fmt::format("from {:g} to {:g} m, or leave it out", outline.front()[0], outline.back()[0]));
+  }
+  return !low && !high;
+}
+
 } // namespace
 
 bool read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene) {
@@ -109,7 +130,7 @@ bool read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene) {
   }
   const bool plain = node == nullptr || (node->kind == DeckNode::Kind::text && node->text == "rectilinear");
   if (plain) {
-    for (const char* key : {"outer_radius", "centre"}) {
+    for (const char* key : {"outer_radius", "centre", "outline"}) {
       if (DeckNode* extra = mesh.find(key)) {
         deck.fail_key(*extra, "only with a `map`");
       }
@@ -129,18 +150,27 @@ bool read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene) {
   }
   read_outer_radius(deck, mesh, found->name, scene.map);
   read_centre(deck, mesh, scene.geometry, scene.map);
+  if (is_turned(found->kind)) {
+    return read_outline(deck, mesh, scene);
+  }
+  if (DeckNode* outline = mesh.find("outline")) {
+    deck.fail_key(*outline, fmt::format("a {} mesh does not take it", found->name));
+  }
   return true;
 }
 
 bool check_mapped_axis(Deck& deck, DeckNode& node, const SceneSpec& scene, int axis) {
   const std::vector<double>& lines = scene.mesh_lines[static_cast<std::size_t>(axis)];
   const Dimension dimension = mesh_axis_dimension(scene.map, axis);
-  const bool along_z = axis == 2 && scene.map.kind != MapKind::ball;
+  const bool along_z = (axis == 2 && scene.map.kind != MapKind::ball) || (axis == 1 && scene.map.kind == MapKind::turned_section);
+  if (along_z && is_turned(scene.map.kind) && !lines.empty()) {
+    return check_outline_ends(deck, node, lines, scene.map.outline);
+  }
   if (!scene.map.curved() || lines.empty() || along_z) {
     return true;
   }
   if (dimension == Dimension::none) {
-    return check_square(deck, node, lines, scene.map.kind == MapKind::ball_section && axis == 0);
+    return check_square(deck, node, lines, axis == 0 && (scene.map.kind == MapKind::ball_section || scene.map.kind == MapKind::turned_section));
   }
   return dimension == Dimension::angle ? check_angles(deck, node, lines, scene.map.kind) : check_radius(deck, node, lines);
 }

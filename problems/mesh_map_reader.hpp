@@ -6,8 +6,14 @@
 
 namespace ballast {
 
-/// `map`, `outer_radius` and `centre` of [mesh]; scene.geometry and motion must be known. False: no such map, its axes mean nothing.
+/// `map`, `outer_radius`, `centre` and `outline` of [mesh]; scene.geometry and motion must be known. False: no such map, its axes mean nothing.
 bool read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene);
+
+/// `outline` of a `turned` mesh, placed along z. False and an error: there is none, or it does not fit a mesh.
+bool read_outline(Deck& deck, DeckNode& mesh, SceneSpec& scene);
+
+/// Gives the table of z of a `turned` mesh the outline's ends where it has no `from` or `to`.
+void add_outline_ends(DeckNode& axis_table, const SceneSpec& scene, int axis);
 
 /// False (and an error) where the lines of an axis reach to where its map has no cells.
 bool check_mapped_axis(Deck& deck, DeckNode& axis_table, const SceneSpec& scene, int axis);

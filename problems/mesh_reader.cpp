@@ -197,7 +197,7 @@ void read_mesh(Deck& deck,
   const std::vector<std::string> names = mesh_axis_names(scene);
   double refine = 1;
   for (auto& [name, node] : mesh.fields) {
-    if (name == "map" || name == "outer_radius" || name == "centre") {
+    if (name == "map" || name == "outer_radius" || name == "centre" || name == "outline") {
       continue; // read_map
     }
     if (name == "refine") {
@@ -224,6 +224,7 @@ void read_mesh(Deck& deck,
       continue;
     }
     const Dimension dimension = mesh_axis_dimension(scene.map, static_cast<int>(axis));
+    add_outline_ends(*node, scene, static_cast<int>(axis));
     const Section in = read_section(deck, *node, scene_keys::mesh_axis(dimension));
     scene.mesh_lines[axis] = read_lines(deck, in, refine, dimension);
     if (!check_mapped_axis(deck, *node, scene, static_cast<int>(axis))) {

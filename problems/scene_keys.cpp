@@ -256,6 +256,7 @@ std::string reference() {
                               &stl(),
                               &rotate(3),
                               &mesh(),
+                              &mesh_outline(),
                               &mesh_axis(),
                               &boundary(),
                               &motion(),

@@ -22,6 +22,7 @@ const SectionSpec& half_space(std::size_t dim);
 const SectionSpec& stl();
 const SectionSpec& rotate(std::size_t dim);
 const SectionSpec& mesh();
+const SectionSpec& mesh_outline();
 const SectionSpec& mesh_axis(Dimension dimension = Dimension::length);
 const SectionSpec& velocity_radial(std::size_t dim);
 const SectionSpec& boundary();

@@ -57,7 +57,7 @@ struct PartBody {
 };
 struct Part {
   double length; ///< base to tip, m
-  std::vector<PartBody> bodies;
+  std::vector<PartBody> bodies; ///< the last has the outside
 };
 const Part* find_part(std::string_view name);
 

@@ -75,7 +75,10 @@ std::vector<std::string> mesh_axis_names(const SceneSpec& scene) {
   case MapKind::ball_section:
     return {"u", "v"};
   case MapKind::rod:
+  case MapKind::turned:
     return {"u", "v", "z"};
+  case MapKind::turned_section:
+    return {"u", "z"};
   case MapKind::ball:
     return {"u", "v", "w"};
   }
@@ -96,7 +99,10 @@ Dimension mesh_axis_dimension(const MeshMap& map, int axis) {
   case MapKind::ball:
     return Dimension::none;
   case MapKind::rod:
+  case MapKind::turned:
     return axis == 2 ? Dimension::length : Dimension::none;
+  case MapKind::turned_section:
+    return axis == 1 ? Dimension::length : Dimension::none;
   }
   return Dimension::length;
 }
@@ -105,7 +111,7 @@ Bounds mesh_bounds(const SceneSpec& scene) {
   Bounds box;
   const auto& lines = scene.mesh_lines;
   const auto dim = static_cast<std::size_t>(dimensions(scene.geometry));
-  const bool sized = mesh_axis_dimension(scene.map, 0) != Dimension::none || scene.map.outer_radius > 0;
+  const bool sized = mesh_axis_dimension(scene.map, 0) != Dimension::none || scene.map.outer_radius > 0 || !scene.map.outline.empty();
   for (std::size_t d = 0; d < dim; ++d) {
     if (lines[d].empty() || !sized) {
       return {};

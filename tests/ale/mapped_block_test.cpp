@@ -182,6 +182,9 @@ TEST(MappedBlock, UniformFlowThroughAMeshAtRestStaysUniform) {
     streams<2>({MapKind::disc, {0, 0, 0}, 1}, false, {uniform(-1, 1, 12), uniform(-1, 1, 12), {}}, every);
     streams<2>({MapKind::spherical, {0, 0, 0}, 0}, true, {uniform(0, 2 * right, 12), uniform(0.3, 1, 7), {}}, every);
     streams<2>({MapKind::ball_section, {0, 0, 0}, 1}, true, {uniform(0, 1, 6), uniform(-1, 1, 12), {}}, every);
+    const std::vector<std::array<double, 2>> outline = {{0, 1}, {0.4, 0.9}, {1, 0.4}};
+    streams<2>({MapKind::turned_section, {0, 0, 0}, 0, outline}, true, {uniform(0, 1, 6), uniform(0, 1, 9), {}}, every);
+    streams<3>({MapKind::turned, {0, 0, 0}, 0, outline}, false, {uniform(-1, 1, 8), uniform(-1, 1, 8), uniform(0, 1, 6)}, every);
     streams<3>({MapKind::cylindrical, {0, 0, 0}, 0}, false, {uniform(0.3, 1, 5), uniform(0.2, 1.9, 7), uniform(0, 1, 5)}, every);
     streams<3>({MapKind::rod, {0, 0, 0}, 1}, false, {uniform(-1, 1, 8), uniform(-1, 1, 8), uniform(0, 1, 4)}, every);
     streams<3>({MapKind::ball, {0, 0, 0}, 1}, false, {uniform(-1, 1, 8), uniform(-1, 1, 8), uniform(-1, 1, 8)}, every);

@@ -5,6 +5,7 @@
 #include "ale/relax.hpp"
 #include "materials/library.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
@@ -156,6 +157,68 @@ TEST(Relax, NodesStayRatherThanTurnACellInsideOut) {
     for_each_node<2>(b, [&](int i, int j, int k) { moved = std::max(moved, std::abs(node<2>(b, b.target, i, j, k)[0] - node<2>(b, b.position, i, j, k)[0])); });
     EXPECT_GT(moved, 0.05) << sweeps; // elsewhere it was smoothed
   }
+}
+
+template <int Dim> std::vector<double> thicknesses(const Block<Dim>& b, const std::array<RowField, Dim>& mesh) {
+  std::vector<double> all, row(static_cast<std::size_t>(b.grid.cells[0]));
+  for (int k = 0; k < b.grid.cells[2]; ++k) {
+    for (int j = 0; j < b.grid.cells[1]; ++j) {
+      row_thickness<Dim>(b.grid, mesh, j, k, row.data());
+      all.insert(all.end(), row.begin(), row.end());
+    }
+  }
+  return all;
+}
+
+/// A free side drawn in like a bullet's base: harmonic displacements would press the cells before it to slivers.
+template <int Dim> void never_thins() {
+  Block<Dim> b = relaxing<Dim>(BoundaryKind::symmetry);
+  move<Dim>(b, b.position, [](const Point& x) { return Point{x[0] * (1 - 0.6 * std::exp(-std::pow(x[1] - 3, 2))), x[1], x[2]}; });
+  b.motion.sweeps = 200;
+  ThreadPool pool(2);
+  place_target(b, pool);
+  const std::vector<double> home = thicknesses<Dim>(b, b.home), before = thicknesses<Dim>(b, b.position), after = thicknesses<Dim>(b, b.target);
+  const double thinnest = *std::min_element(before.begin(), before.end());
+  double most = 0;
+  for (std::size_t c = 0; c < before.size(); ++c) {
+    EXPECT_GE(after[c], std::min({1.5 * thinnest, 0.7 * home[c], before[c] * (1 - 1e-9)})) << c;
+    most = std::max(most, after[c] - before[c]);
+  }
+  EXPECT_GT(most, 0.01 * thinnest); // and mends others
+}
+TEST(Relax, SmoothingMakesNoThinCellThinner) {
+  never_thins<2>();
+  never_thins<3>();
+}
+
+/// What no smoothing can mend holds nothing: the block's corner, a bullet's rim, turned past 180 degrees, and yet its cell's inner node is smoothed.
+TEST(Relax, ACornerOfTheBlockHoldsNoOtherNode) {
+  Block<2> b = relaxing<2>(BoundaryKind::symmetry);
+  const int n = b.grid.cells[0], m = b.grid.cells[1], row = b.grid.node_row(m, 0), inner = b.grid.node_row(m - 1, 0);
+  const double dx = b.home[0].row(row)[n] - b.home[0].row(row)[n - 1], dy = b.home[1].row(row)[n] - b.home[1].row(inner)[n];
+  b.position[0].row(row)[n] -= 0.52 * dx;
+  b.position[1].row(row)[n] -= 0.52 * dy;
+  b.position[0].row(inner)[n - 1] += 0.2 * dx;
+  ThreadPool pool(1);
+  ASSERT_LT(mesh_quality<2>(b.grid, b.position, b.home, pool), 0);
+  place_target(b, pool);
+  EXPECT_LT(b.target[0].row(inner)[n - 1], b.position[0].row(inner)[n - 1] - 0.05 * dx);
+}
+
+/// Of a box of 3 x 2 (x 5), sheared along its long side: its height.
+TEST(MeshQuality, ThicknessIsTheContentByTheLargestSide) {
+  Block<2> b = relaxing<2>(BoundaryKind::free);
+  double row[6];
+  move<2>(b, b.position, [](const Point& x) { return Point{3 * x[0] + x[1], 2 * x[1], 0}; }); // the first cell is a unit square
+  row_thickness<2>(b.grid, b.position, 0, 0, row);
+  EXPECT_NEAR(row[0], 2, 1e-14);
+  Block<3> c = relaxing<3>(BoundaryKind::free);
+  move<3>(c, c.position, [](const Point& x) { return Point{3 * x[0] + 7 * x[2], 2 * x[1], 5 * x[2]}; });
+  row_thickness<3>(c.grid, c.position, 0, 0, row);
+  EXPECT_NEAR(row[0], 30 / std::hypot(2 * 5, 2 * 7), 1e-13); // the largest side is that of the lines y and z
+  move<3>(c, c.position, [](const Point& x) { return Point{-x[0], x[1], x[2]}; });
+  row_thickness<3>(c.grid, c.position, 0, 0, row);
+  EXPECT_NEAR(row[0], -1, 1e-14);
 }
 
 template <int Dim> void quality_is(const Map& map, double want) {

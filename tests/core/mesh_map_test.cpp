@@ -53,8 +53,10 @@ TEST(MeshMap, SharesOfSectorsAreTheirIntegrals) {
                         Case{MapKind::cylindrical, false, {2, -0.4, 0}, {2.1, 0.1, 1}},
                         Case{MapKind::spherical, true, {0, 0.2, 0}, {0.5, 0.9, 0}},
                         Case{MapKind::spherical, true, {0.3, 1, 0}, {0.5, 1.3, 0}},
-                        Case{MapKind::spherical, true, {2.9, 0.2, 0}, {pi, 0.3, 0}}}) {
-    const MeshMap map{c.kind, {0, 0.1, 0}, 0};
+                        Case{MapKind::spherical, true, {2.9, 0.2, 0}, {pi, 0.3, 0}},
+                        Case{MapKind::turned_section, true, {0, 0.1, 0}, {0.2, 0.35, 0}},
+                        Case{MapKind::turned_section, true, {0.8, 0.4, 0}, {1, 0.9, 0}}}) {
+    const MeshMap map{c.kind, {0, 0.1, 0}, 0, {{0, 3}, {0.4, 2}, {1, 0.5}}};
     for (int corner = 0; corner < 4; ++corner) {
       double share = 1;
       for (int axis = 0; axis < 2; ++axis) {
@@ -93,6 +95,32 @@ TEST(MeshMap, PlanesOfSymmetryAreExact) {
       EXPECT_EQ(place(map, q)[static_cast<std::size_t>(axis)], 0);
     }
   }
+}
+
+/// Places of u and z, and of the larger of u and v, are on the outline; beyond its ends it goes on as it is there.
+TEST(MeshMap, TurnedMeshesLieOnTheirOutline) {
+  const std::vector<std::array<double, 2>> outline = {{-2, 3}, {-1.6, 2}, {-1, 0.5}};
+  const auto radius = [](double z) { return z < -2 ? 3 : z < -1.6 ? 2 + (-1.6 - z) / 0.4 : z < -1 ? 0.5 + 1.5 * (-1 - z) / 0.6 : 0.5; };
+  const MeshMap section{MapKind::turned_section, {0, 0, 0}, 0, outline}, solid{MapKind::turned, {0.25, 0.5, 0}, 0, outline};
+  for (const double z : {-2.1, -2.0, -1.83, -1.6, -1.2, -1.0, -0.7}) {
+    EXPECT_NEAR(place(section, {1, z, 0})[0], radius(z), 1e-14);
+    EXPECT_NEAR(place(section, {0.3, z, 0})[0], 0.3 * radius(z), 1e-14);
+    EXPECT_EQ(place(section, {0, z, 0})[0], 0);
+    EXPECT_EQ(place(section, {0.3, z, 0})[1], z);
+    for (const double v : {-1.0, -0.4, 0.0, 0.7}) {
+      const Place p = place(solid, {1, v, z});
+      EXPECT_NEAR(std::hypot(p[0] - 0.25, p[1] - 0.5), radius(z), 1e-14);
+      EXPECT_EQ(place(solid, {0, v, z})[0], 0.25); // the plane between halves
+      EXPECT_EQ(p[2], z);
+    }
+  }
+  EXPECT_EQ(place(section, {1, -1.6, 0})[0], 2); // its points are met
+  EXPECT_EQ(normal_component(section, 0, 0), 0);
+  EXPECT_EQ(normal_component(section, 0, 1), -1);
+  EXPECT_EQ(normal_component(section, 1, -2), 1);
+  EXPECT_EQ(normal_component(solid, 1, 0), 1);
+  EXPECT_EQ(normal_component(solid, 1, 1), -1);
+  EXPECT_EQ(normal_component(solid, 2, -1), 2);
 }
 
 /// The edge of the square is a circle, that of the cube a sphere; the shells never turn back.

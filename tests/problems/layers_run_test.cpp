@@ -14,7 +14,29 @@
 namespace ballast {
 namespace {
 
-/// A lead disc on three layers whose edges lie free: nothing outside acts along the shot.
+/// A bullet of some bodies on three layers whose edges lie free: nothing outside acts along the shot.
+std::string on_vest(const std::string& body, const std::string& bullet) {
+  return "title = \"disc on vest\"\n" + body + R"(
+[motion]
+policy = "relax"
+remap_every = 4
+[numerics]
+spall = false
+[[layers]]
+name = "vest"
+fabric = "kevlar_km2_raftenberg"
+front = "0 mm"
+layers = 3
+half_width = "20 mm"
+cells = 10
+friction = 0.2
+[output]
+fields_every = "5 us"
+[results]
+bullet = [")" + bullet + "\"]\n";
+}
+
+/// A lead disc.
 std::string deck(bool solid) {
   const std::string body = solid ? R"(
 geometry = "3d"
@@ -43,25 +65,16 @@ shape = { cylinder = { from = ["0 mm", "-3 mm"], to = ["0 mm", "0 mm"], radius =
 r = { from = "0 mm", to = "6 mm", cells = 6 }
 z = { from = "-3 mm", to = "0 mm", cells = 3 }
 )";
-  return "title = \"disc on vest\"\n" + body + R"(
-[motion]
-policy = "relax"
-remap_every = 4
-[numerics]
-spall = false
-[[layers]]
-name = "vest"
-fabric = "kevlar_km2_raftenberg"
-front = "0 mm"
-layers = 3
-half_width = "20 mm"
-cells = 10
-friction = 0.2
-[output]
-fields_every = "5 us"
-[results]
-bullet = ["disc"]
-)";
+  return on_vest(body, "disc");
+}
+
+/// A jacketed bullet on the same: the mesh is turned about the line of flight, core and jacket share cells.
+std::string bullet_deck(bool solid) {
+  const std::string tip = solid ? "[0, 0, 0]" : "[0, 0]", across = "{ from = 0, to = 1, cells = 3 }\n";
+  return on_vest(fmt::format("geometry = \"{}\"\nend_time = \"{} us\"\n[[body]]\nuse = \"bullet/m882\"\ntip = {}\nvelocity = \"370 m/s\"\n[mesh]\nmap = \"turned\"\n"
+                             "outline = {{ use = \"bullet/m882\", tip = {} }}\nz = {{ cells = 6 }}\nu = {}{}{}",
+                             solid ? "3d" : "axisymmetric", solid ? 6 : 15, tip, tip, across, solid ? "v = " : "", solid ? across : ""),
+                 "core\", \"jacket");
 }
 
 std::string text_of(const std::filesystem::path& path) {
@@ -75,14 +88,16 @@ struct Written {
   std::string history, back_face;
 };
 
-template <int Dim> Written run(int threads) {
+template <int Dim> Written run(int threads, const std::string& text) {
   const io::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "deck.toml", dir = folder.path() / "run";
-  std::ofstream(file) << deck(Dim == 3);
+  std::ofstream(file) << text;
   const ReadScene read = read_scene(file.string(), {});
   EXPECT_EQ(RunSession<Dim>(read, dir, threads, "").run(), 0);
   return {nlohmann::json::parse(text_of(dir / "summary.json")), text_of(dir / "history.csv"), text_of(dir / "back_face_0001.csv")};
 }
+
+template <int Dim> Written run(int threads) { return run<Dim>(threads, deck(Dim == 3)); }
 
 template <int Dim> void expect_conserved(const nlohmann::json& j) {
   EXPECT_LT(std::abs(j["conservation_errors"]["mass_relative"].get<double>()), 1e-13);
@@ -103,6 +118,11 @@ template <int Dim> void expect_conserved(const nlohmann::json& j) {
 TEST(LayersRun, DiscOnAVestConservesMassMomentumAndEnergyAroundAnAxis) { expect_conserved<2>(run<2>(1).summary); }
 
 TEST(LayersRun, DiscOnAVestConservesMassMomentumAndEnergyInSpace) { expect_conserved<3>(run<3>(2).summary); }
+
+TEST(LayersRun, AJacketedBulletDoesToo) {
+  expect_conserved<2>(run<2>(2, bullet_deck(false)).summary);
+  expect_conserved<3>(run<3>(2, bullet_deck(true)).summary);
+}
 
 template <int Dim> void expect_same_bits() {
   const Written one = run<Dim>(1);
@@ -158,14 +178,16 @@ template <int Dim> std::vector<double> state_of(const Scene<Dim>& scene) {
   return out;
 }
 
-template <int Dim> void expect_restart_goes_on() {
-  Deck text = Deck::parse(deck(Dim == 3), "test.toml", {});
+template <int Dim> void expect_restart_goes_on(const std::string& source) {
+  Deck text = Deck::parse(source, "test.toml", {});
   expect_restarts<Dim>(read_scene(text), {1, 6, 13}, [](const Scene<Dim>& scene) { return state_of(scene); });
 }
 
 TEST(LayersRun, RestartGoesOnBitForBit) {
-  expect_restart_goes_on<2>();
-  expect_restart_goes_on<3>();
+  expect_restart_goes_on<2>(deck(false));
+  expect_restart_goes_on<3>(deck(true));
+  expect_restart_goes_on<2>(bullet_deck(false));
+  expect_restart_goes_on<3>(bullet_deck(true));
 }
 
 } // namespace

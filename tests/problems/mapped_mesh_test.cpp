@@ -7,6 +7,7 @@
 #include "problems/scene_report.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -140,6 +141,36 @@ TEST(MappedMesh, SidesAreSymmetricWherePlanesCutTheBody) {
   EXPECT_EQ(rod.boundaries[2][0].kind, BoundaryKind::wall);
   // Chords: the octagon's area with 8 cells on the half circle, by the rod's own table and by the block.
   EXPECT_NEAR(filled_bodies(rod)[0].volume, totals(build_scene<3>(rod, 1).blocks[0]).volume[0], 1e-15);
+}
+
+const std::string bullet = "title = \"t\"\ngeometry = \"{}\"\nend_time = \"1 us\"\n[[body]]\nuse = \"bullet/m882\"\ntip = [{}]\n"
+                           "[mesh]\nmap = \"turned\"\noutline = {{ use = \"bullet/m882\", tip = [{}] }}\n{}z = {{ size = \"{} mm\" }}\n[motion]\npolicy = \"relax\"\n";
+std::string bullet_deck(bool solid, int across, double size) {
+  const std::string tip = solid ? "0, 0, 0.003" : "0, 0.003", u = fmt::format("{{ from = 0, to = 1, cells = {} }}\n", across);
+  return fmt::format(fmt::runtime(bullet), solid ? "3d" : "axisymmetric", tip, tip, "u = " + u + (solid ? "v = " + u : ""), size);
+}
+
+/// The mesh is the bullet and nothing else: no void beside it, and its mass but for what chords cut off.
+TEST(MappedMesh, TurnedMeshHoldsTheBulletAndNothingElse) {
+  const double exact = 8.00575e-3; // of the outline
+  double before = 0;
+  for (const int n : {9, 18}) {
+    const SceneSpec spec = scene_of(bullet_deck(false, n, 4.5 / n));
+    EXPECT_EQ(spec.mesh_lines[1].front(), 0.003 - 0.0155);
+    EXPECT_EQ(spec.mesh_lines[1].back(), 0.003);
+    const Scene<2> scene = build_scene<2>(spec, 1);
+    const Totals t = totals(scene.blocks[0]);
+    double volume = 0;
+    for_each_cell(scene.blocks[0], [&](int i, int j, int) { volume += scene.blocks[0].volume.row(scene.blocks[0].grid.cell_row(j, 0))[i]; });
+    EXPECT_NEAR(t.volume[0] + t.volume[1], volume, 1e-14 * volume);
+    const double missing = 1 - (t.mass[0] + t.mass[1]) / exact;
+    EXPECT_LT(std::abs(missing), n == 9 ? 4e-4 : 1e-4);
+    before = missing;
+  }
+  EXPECT_GT(before, -1e-4);
+  const Scene<3> solid = build_scene<3>(scene_of(bullet_deck(true, 6, 0.75)), 1);
+  const Totals t = totals(solid.blocks[0]);
+  EXPECT_NEAR(4 * (t.mass[0] + t.mass[1]), exact, 5e-3 * exact); // 24 chords around
 }
 
 TEST(MappedMesh, ResolvedDeckReadsBackToItself) {

@@ -166,7 +166,7 @@ TEST(Scene, ExamplesAreValid) {
   EXPECT_GE(decks, 10);
 }
 
-TEST(Parts, M80IsTheProfileOnFile) {
+TEST(Parts, AreTheProfilesOnFile) {
   const auto points = [](const std::string& file) {
     std::ifstream in(source_dir + "/problems/data/" + file);
     std::vector<std::array<double, 2>> out;
@@ -178,10 +178,32 @@ TEST(Parts, M80IsTheProfileOnFile) {
     }
     return out;
   };
-  const Part& m80 = *find_part("bullet/m80");
-  EXPECT_EQ(m80.bodies[0].outline, points("m80_core.csv"));
-  EXPECT_EQ(m80.bodies[1].outline, points("m80_outer.csv"));
-  EXPECT_EQ(m80.bodies[1].hollow, m80.bodies[0].outline);
+  for (const std::string name : {"m80", "m882"}) {
+    const Part& part = *find_part("bullet/" + name);
+    EXPECT_EQ(part.bodies[0].outline, points(name + "_core.csv"));
+    EXPECT_EQ(part.bodies[1].outline, points(name + "_outer.csv"));
+    EXPECT_EQ(part.bodies[1].hollow, part.bodies[0].outline);
+    EXPECT_EQ(part.length, part.bodies[1].outline.back()[0]);
+  }
+}
+
+TEST(Parts, M882WeighsWhatItShould) {
+  Deck deck = Deck::parse(R"(
+title = "m882"
+geometry = "axisymmetric"
+end_time = 1e-6
+[[body]]
+use = "bullet/m882"
+[mesh]
+r = { from = "0 mm", to = "5 mm", size = "0.1 mm" }
+z = { from = "-16 mm", to = "1 mm", size = "0.1 mm" }
+)",
+                          "test.toml");
+  const std::vector<Filled> filled = filled_bodies(read_scene(deck));
+  ASSERT_TRUE(deck.clean()) << deck.error_report();
+  EXPECT_NEAR(filled[0].mass, 6.431e-3 * 11350 / 11340, 2e-6); // the outline was made with 11340 kg/m3
+  EXPECT_NEAR(filled[1].mass, 1.569e-3, 2e-6);
+  EXPECT_NEAR(filled[0].mass + filled[1].mass, 8e-3, 8e-6); // 0.1 %
 }
 
 TEST(Parts, ProfileFromAFileEqualsThePart) {
