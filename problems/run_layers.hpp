@@ -20,6 +20,7 @@ struct LayerSums {
   double lost = 0;    ///< to edges, in contact and where the step changed: kinetic + internal + lost keeps
   std::array<double, 3> momentum = {0, 0, 0};     ///< kg m/s
   std::array<double, 3> edge_impulse = {0, 0, 0}; ///< given to the stacks by held edges
+  double seconds = 0, contact_seconds = 0;        ///< on the wall, this run
 };
 template <int Dim> LayerSums sum_layers(const std::vector<Layers<Dim>>& layers);
 
