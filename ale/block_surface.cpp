@@ -143,8 +143,8 @@ template <int Dim> void follow_way(BlockSurface<Dim>& s, double dt, double done,
   }
 }
 
-template <int Dim> SurfaceGain scatter_surface(Block<Dim>& b, const BlockSurface<Dim>& s, double dt) {
-  SurfaceGain gain;
+template <int Dim> double scatter_surface(Block<Dim>& b, const BlockSurface<Dim>& s, double dt) {
+  double energy = 0;
   for (std::size_t d = 0; d < Dim; ++d) {
     for (std::size_t n = 0; n < s.mass.size(); ++n) {
       double& next = b.next_velocity[d].row(s.row[n])[s.index[n]];
@@ -154,11 +154,10 @@ template <int Dim> SurfaceGain scatter_surface(Block<Dim>& b, const BlockSurface
       }
       next = s.velocity[d][n];
       b.next_position[d].row(s.row[n])[s.index[n]] = s.origin[d][n] + 0.5 * dt * (u + next);
-      gain.momentum[d] += s.mass[n] * change;
-      gain.energy += 0.5 * s.mass[n] * change * (u + next);
+      energy += 0.5 * s.mass[n] * change * (u + next);
     }
   }
-  return gain;
+  return energy;
 }
 
 template std::vector<BlockSurface<2>> gather_surfaces<2>(const Block<2>&);
@@ -169,7 +168,7 @@ template void tell_twins<2>(std::vector<BlockSurface<2>>&, std::size_t);
 template void tell_twins<3>(std::vector<BlockSurface<3>>&, std::size_t);
 template void follow_way<2>(BlockSurface<2>&, double, double, double);
 template void follow_way<3>(BlockSurface<3>&, double, double, double);
-template SurfaceGain scatter_surface<2>(Block<2>&, const BlockSurface<2>&, double);
-template SurfaceGain scatter_surface<3>(Block<3>&, const BlockSurface<3>&, double);
+template double scatter_surface<2>(Block<2>&, const BlockSurface<2>&, double);
+template double scatter_surface<3>(Block<3>&, const BlockSurface<3>&, double);
 
 } // namespace ballast

@@ -40,11 +40,7 @@ template <int Dim> void tell_twins(std::vector<BlockSurface<Dim>>& surfaces, std
 /// Moves the surface's nodes on by a substep of h.
 template <int Dim> void follow_way(BlockSurface<Dim>& surface, double dt, double done, double h);
 
-/// Gives the block the velocities and places that contact made; returns the energy (J) and the momentum that it thereby gained.
-struct SurfaceGain {
-  double energy = 0;
-  std::array<double, 3> momentum = {0, 0, 0};
-};
-template <int Dim> SurfaceGain scatter_surface(Block<Dim>& block, const BlockSurface<Dim>& surface, double dt);
+/// Gives the block the velocities and places that contact made; returns the energy (J) that it thereby gained.
+template <int Dim> double scatter_surface(Block<Dim>& block, const BlockSurface<Dim>& surface, double dt);
 
 } // namespace ballast

@@ -1,10 +1,12 @@
 #include "ale/layer_coupling.hpp"
 
 #include "ale/block_surface.hpp"
+#include "core/error.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace ballast {
 
@@ -45,7 +47,12 @@ template <int Dim> bool turned_away(const BlockSurface<Dim>& side, bool above) {
 
 /// Substeps in what is left of a step of dt.
 template <int Dim> int substeps_of(const Layers<Dim>& layers, double dt, double done) {
-  const double stable = stable_step(layers.stack, layers.cfl).dt, left = 1 - done;
+  const LayerTimestep limit = stable_step(layers.stack, layers.cfl);
+  const double stable = limit.dt, left = 1 - done;
+  constexpr double most = 1e6;
+  if (!(left * dt <= most * stable)) {
+    throw NumericalFailure(fmt::format("{}: a stable step of {:.3g} s, a millionth of the mesh's: layer {}, element ({}, {}) of level {}", layers.stack.name, stable, limit.level / layers.stack.grid.through, limit.i, limit.j, limit.level));
+  }
   return std::max({1, static_cast<int>(std::lround(layers.substeps * left)), static_cast<int>(std::ceil(left * dt / stable * (1 - 1e-12)))});
 }
 
@@ -139,7 +146,7 @@ template <int Dim> void step_layers(Scene<Dim>& scene, double dt) {
   }
   for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
     for (const auto& s : blocks[ib]) {
-      scene.layers.front().ledger.contact_loss -= scatter_surface(scene.blocks[ib], s, dt).energy;
+      scene.layers.front().ledger.contact_loss -= scatter_surface(scene.blocks[ib], s, dt);
     }
   }
 }

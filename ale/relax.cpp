@@ -243,17 +243,17 @@ template <int Dim> void relax_target(Block<Dim>& b, ThreadPool& pool) {
   }
   turn<Dim>(b, u, true, pool);
   go_to<Dim>(b, u, b.target, pool);
-  constexpr double margin = 1.5;
+  constexpr double margin = 1.05; // wider, and an evenly crushed block would not be smoothed at all
   const double thin = margin * least_thickness<Dim>(g, b.position, pool);
   constexpr int tries = 16; // each lets go of a wider neighbourhood of the spoilt cells
-  for (int n = 0; n < tries; ++n) {
-    const auto spoilt = spoilt_cells<Dim>(b, thin, b.target, pool);
-    if (spoilt.empty()) {
-      return;
-    }
+  auto spoilt = spoilt_cells<Dim>(b, thin, b.target, pool);
+  for (int n = 0; n < tries && !spoilt.empty(); ++n) {
     stay_at<Dim>(b, spoilt, b.target);
+    spoilt = spoilt_cells<Dim>(b, thin, b.target, pool);
   }
-  b.target = b.position;
+  if (!spoilt.empty()) {
+    b.target = b.position;
+  }
 }
 
 template void weigh_neighbours<2>(Block<2>&);

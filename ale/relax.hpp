@@ -16,7 +16,7 @@ namespace ballast {
 template <int Dim> void weigh_neighbours(Block<Dim>& block);
 
 /// Brings target from position on to a smoothed mesh. Nodes of cells that this would turn inside out, or bring near it, stay where they are; so do
-/// those of cells that it would make thinner within 1.5 times the thinnest there is and 0.7 of their own initial thickness: they set the step.
+/// those of cells that it would make as thin as the thinnest there is and thinner than 0.7 of their own initial thickness: they would set the step.
 template <int Dim> void relax_target(Block<Dim>& block, ThreadPool& pool);
 
 } // namespace ballast

@@ -82,6 +82,9 @@ template <int Dim> std::vector<double> pack(const Layers<Dim>& l) {
 }
 
 template <int Dim> void unpack(const std::vector<double>& v, Layers<Dim>& l) {
+  if (v.size() != pack(l).size()) {
+    throw Error(fmt::format("the checkpoint's state of {} holds {} numbers, not {}: it is of another version; start the deck anew", l.stack.name, v.size(), pack(l).size()));
+  }
   LayerLedger& g = l.ledger;
   g.edge_work = v.at(0);
   g.contact_loss = v.at(1);

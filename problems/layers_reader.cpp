@@ -64,6 +64,10 @@ bool read_weight(Context c, const Section& in, const FabricMaterial& fabric, Lay
   out.plies = in.has("plies") ? in.integer("plies") : known ? fabric.plies : out.layers;
   const bool a = in.has("areal_density"), t = in.has("thickness"), d = in.has("density");
   double areal = in.number("areal_density"), thickness = in.number("thickness"), rho = in.number("density");
+  const double ply = known ? density(fabric.model) * fabric.thickness / fabric.plies : 0.0; // kg/m2
+  if (known && a && !in.has("plies")) {
+    out.plies = static_cast<int>(std::max(1L, std::lround(areal / ply)));
+  }
   if (!known && a + t + d < 2) {
     c.deck.fail({in.self().place, in.self().key + ".thickness", fmt::format("missing; nothing is known of the plies of \"{}\"", out.fabric), "two of areal_density, thickness and density"});
     return false;
@@ -83,7 +87,6 @@ bool read_weight(Context c, const Section& in, const FabricMaterial& fabric, Lay
   }
   rho = d ? rho : areal / thickness;
   constexpr double weave = 0.05; // plies of one cloth weigh the same within that
-  const double ply = known ? density(fabric.model) * fabric.thickness / fabric.plies : 0.0;
   if (known && in.has("plies") && std::abs(rho * thickness - out.plies * ply) > weave * rho * thickness) {
     c.deck.fail(*in.node("plies"), fmt::format("{} plies of \"{}\" weigh {:.4g} kg/m2, the stack {:.4g} kg/m2", out.plies, out.fabric, out.plies * ply, rho * thickness),
                 fmt::format("plies = {}, another weight, or a fabric of its own in [fabrics]", std::max(1L, std::lround(rho * thickness / ply))));

@@ -1,6 +1,6 @@
 // Library parts: bullets as outlines, materials and masses.
 //
-// bullet/m80: 7.62 mm M80-like ball, bullet/m882: 9 mm M882-like ball, CONSTRUCTED to weigh 9.525 g and 8.000 g, not drawings; see
+// bullet/m80: 7.62 mm M80-like ball, bullet/m882: 9 mm M882-like ball, CONSTRUCTED to weigh 9.525 g and 8.006 g, not drawings; see
 // problems/data/README.md. z = 0 at the base, straight between points.
 #include "problems/scene_reading.hpp"
 

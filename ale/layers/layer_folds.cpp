@@ -54,6 +54,17 @@ template <int Dim> bool stop_edge(LayerStack<Dim>& s, const FoldEdge& e, double 
   return true;
 }
 
+/// Is there cloth beside the edge from node (i, j) on along `axis`? Loose nodes of a hole are debris.
+template <int Dim> bool in_cloth(const LayerStack<Dim>& s, int axis, int i, int j, int plane) {
+  const int level = plane / (s.grid.through + 1) * s.grid.through;
+  if (Dim == 2) {
+    return s.alive[s.element(i, 0, level)] != 0;
+  }
+  const int last = s.grid.elements[static_cast<std::size_t>(1 - axis)] - 1, at = axis == 0 ? j : i;
+  const auto there = [&](int across) { return s.alive[axis == 0 ? s.element(i, across, level) : s.element(across, j, level)] != 0; };
+  return (at > 0 && there(at - 1)) || (at <= last && there(at));
+}
+
 template <int Dim> bool sweep_plane(LayerStack<Dim>& s, int plane, double dt, const std::vector<unsigned char>& held, std::array<double, 3>& outside) {
   const int n1 = s.grid.nodes_along(0), n2 = Dim == 3 ? s.grid.nodes_along(1) : 1;
   bool any = false;
@@ -63,6 +74,9 @@ template <int Dim> bool sweep_plane(LayerStack<Dim>& s, int plane, double dt, co
     for (int j = 0; j < n2 - (axis == 1 ? 1 : 0); ++j) {
       for (int i = 0; i < n1 - (axis == 0 ? 1 : 0); ++i) {
         const std::size_t a = s.node(i, j, plane), k = static_cast<std::size_t>(axis == 0 ? i : j);
+        if (!in_cloth(s, axis, i, j, plane)) {
+          continue;
+        }
         any = stop_edge(s, {a, a + to, s.node(i, j, 0), to, s.guard.shortest * (lines[k + 1] - lines[k])}, dt, held, outside) || any;
       }
     }

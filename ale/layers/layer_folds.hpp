@@ -1,5 +1,5 @@
 // Folds finer than an element: cloth pressed in its plane has no strength (materials/fabric), so an element would close and turn
-// inside out, and its surfaces with it. Its edges stop at LayerGuard::shortest of their length at rest, where cloth that lies in
+// inside out, and its surfaces with it. Its edges, where there is cloth beside them, stop at LayerGuard::shortest of their length at rest, where cloth that lies in
 // folds would be solid: impulses along the edge take what closes it further. Inelastic; momentum and moment are kept.
 #pragma once
 

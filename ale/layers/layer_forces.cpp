@@ -1,6 +1,7 @@
 #include "ale/layers/layer_forces.hpp"
 
 #include "ale/layers/layer_edges.hpp"
+#include "ale/layers/layer_erosion.hpp"
 #include "ale/layers/layer_guard.hpp"
 #include "ale/layers/layer_rows.hpp"
 #include "core/error.hpp"
@@ -335,37 +336,6 @@ template <int Dim> [[noreturn]] void fail(const LayerStack<Dim>& s) {
   throw NumericalFailure(fmt::format("{}: a stress is not finite", s.name));
 }
 
-template <int Dim> bool is_lost(const LayerStack<Dim>& s, const LawAtRest<Dim>& law, std::size_t e) {
-  bool lost = true;
-  for (std::size_t point = 0; point < 2 && lost; ++point) {
-    for (std::size_t family = 0; family < 2 && lost; ++family) {
-      lost = s.largest[point][family][e] >= law.lost[family];
-    }
-  }
-  return lost;
-}
-
-/// Erodes a layer where all its elements through the thickness have lost both families: it has a hole then, seen from both sides.
-template <int Dim> void erode(LayerStack<Dim>& s, const LawAtRest<Dim>& law, LayerLedger& ledger) {
-  const int through = s.grid.through;
-  const std::size_t level = s.element_count() / static_cast<std::size_t>(s.grid.levels());
-  for (int layer = 0; layer < s.grid.layers; ++layer) {
-    const std::size_t first = s.element(0, 0, layer * through);
-    for (std::size_t e = first; e < first + level; ++e) {
-      int lost = 0;
-      while (lost < through && s.alive[e] != 0 && is_lost(s, law, e + static_cast<std::size_t>(lost) * level)) {
-        ++lost;
-      }
-      for (int l = 0; l < through && lost == through; ++l) {
-        const std::size_t k = e + static_cast<std::size_t>(l) * level;
-        s.alive[k] = 0;
-        ledger.eroded_energy += s.energy[k];
-        ++ledger.eroded_elements;
-      }
-    }
-  }
-}
-
 } // namespace
 
 template <int Dim> void update_forces(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool) {
@@ -373,7 +343,7 @@ template <int Dim> void update_forces(LayerStack<Dim>& s, double dt, LayerLedger
     std::fill(component.begin(), component.end(), 0.0);
   }
   const LawAtRest<Dim> law = law_at_rest(s);
-  erode(s, law, ledger);
+  erode(s, law.lost, ledger);
   std::vector<RowReport> reports(static_cast<std::size_t>(pool.size()));
   // Rows of one colour share no node; colours follow each other in order, so each node's sum has one order.
   const int across = Dim == 3 ? 2 : 1;

@@ -11,7 +11,7 @@
 
 namespace ballast {
 
-/// Forces, stable steps and memory at the positions; erodes elements whose points have both lost both families: they give
+/// Forces, stable steps and memory at the positions. First erodes (ale/layers/layer_erosion) what the update before found lost: it gives
 /// no force from here on. dt: of the step that led here, smooths the rates some laws want. The same bits for any threads.
 /// Throws NumericalFailure naming layer and element where a stress is not finite.
 template <int Dim> void update_forces(LayerStack<Dim>& stack, double dt, LayerLedger& ledger, ThreadPool& pool);

@@ -24,7 +24,7 @@ template <int Dim>
           std::max(b0 * dot(low.by3, low.by3), b1 * dot(up.by3, up.by3))};
 }
 
-/// Square of the stretch along an axis, 1 + 2E; in 2D 1 along the hoop: nothing held varies by it.
+/// Square of the stretch along an axis, 1 + 2E; in 2D 0 in the plane: nothing held varies by it there.
 [[gnu::always_inline]] inline double stretch_square(const Modes<3>& c, const Gradients& a, std::size_t axis) {
   return axis == 0 ? a.a1 * a.a1 * dot(c[c1], c[c1]) : axis == 1 ? a.a2 * a.a2 * dot(c[c2], c[c2]) : a.a3 * a.a3 * dot(c[c3], c[c3]);
 }

@@ -34,7 +34,7 @@ struct LayerHourglass {
 
 /// Artificial viscosity through the thickness: a law that stiffens as it is pressed makes shocks, and what they waste is heat. Without it the
 /// layers hand an impact on as the balls of Newton's cradle do and the last one leaves faster than what struck. A pressure
-/// density v (quadratic v + linear c), v the speed at which the faces come together, c the wave at rest; only of pressed elements.
+/// density v (quadratic v + linear c), v the speed at which the faces come together, c the wave at rest; of cloth only where it is pressed: plies that are apart do not meet.
 struct LayerViscosity {
   double quadratic = 1.5;
   double linear = 0.06;

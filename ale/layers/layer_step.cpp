@@ -31,7 +31,7 @@ template <int Dim> void accelerate(LayerStack<Dim>& s, double half, ThreadPool& 
 template <int Dim> LayerTimestep stable_step(const LayerStack<Dim>& s, double cfl) {
   LayerTimestep least{std::numeric_limits<double>::infinity()};
   for (std::size_t e = 0; e < s.element_count(); ++e) {
-    if (s.wave_step[e] < least.dt) {
+    if (!(s.wave_step[e] >= least.dt)) { // what is no number, too
       least.dt = s.wave_step[e];
       least.element = e;
     }

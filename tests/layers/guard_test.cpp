@@ -2,7 +2,9 @@
 #include "ale/layers/layer_folds.hpp"
 #include "tests/layers/stacks.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <memory>
 
 namespace ballast {
 namespace {
@@ -84,6 +86,43 @@ TEST(LayerGuard, EdgesCloseToTheirShortest) {
     }
   }
   EXPECT_NEAR(ledger.contact_loss, kinetic, 1e-3 * kinetic); // an impact: all of it
+}
+
+/// Loose nodes of eroded cloth are debris: they fly on.
+TEST(LayerGuard, DebrisDoesNotFold) {
+  LayerStack<2> s = make_stack<2>(brick(fabric_laws::paper(), {6, 1, 1}, {1e-3, 1, 0.6e-3}, 2));
+  std::fill(s.alive.begin(), s.alive.end(), char(0));
+  place(s, s.velocity, [](std::array<double, 2> X) -> std::array<double, 2> { return {-1e5 * (X[0] - 3e-3), 0}; });
+  const auto velocity = s.velocity;
+  ThreadPool pool(1);
+  LayerLedger ledger;
+  update_forces(s, 0.0, ledger, pool);
+  for (int step = 0; step < 400; ++step) {
+    substep(s, 5e-8, ledger, pool);
+  }
+  EXPECT_EQ(s.velocity, velocity);
+  EXPECT_EQ(ledger.contact_loss, 0);
+}
+
+/// The energy booked with the held modes is the guard's, K V (J - Jl - Jl ln(J/Jl)): shear that turns a face under the other, slowly.
+TEST(LayerGuard, BooksItsOwnEnergy) {
+  LayerInput in = brick(slippery(), {1, 1, 1}, {1e-3, 1, 0.6e-3}, 2);
+  in.hourglass = {0, 0};
+  in.viscosity = {0, 0};
+  in.guard = {0, 0.5};
+  LayerStack<2> s = make_stack<2>(in);
+  ThreadPool pool(1);
+  LayerLedger ledger;
+  update_forces(s, 0.0, ledger, pool);
+  constexpr double share = 0.7; // J falls to 0.3: its edges close in the plane
+  for (int step = 0; step < 4000; ++step) {
+    substep(s, 1e-8, ledger, pool, [&] {
+      place(s, s.velocity, [&](std::array<double, 2> X) -> std::array<double, 2> { return {-share * X[0] / 40e-6, 0}; });
+    });
+  }
+  const FabricTensor C = evaluate(slippery(), FabricTensor{}, *std::make_unique<FabricState>()).tangent;
+  const double K = std::max(C[2], std::min(C[0], C[1])), V = 1e-3 * 0.6e-3, J = 0.3, least = 0.5;
+  EXPECT_NEAR(totals(s).hourglass, K * V * (J - least - least * std::log(J / least)), 1e-3 * K * V * 0.05);
 }
 
 /// Slack and stretched cloth that no guard touches moves as without one, bit for bit.

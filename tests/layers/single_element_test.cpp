@@ -124,6 +124,32 @@ TEST(SingleElement, ErodesWhenBothFamiliesAreLost) {
   EXPECT_TRUE(std::isinf(stable_step(cube.s).dt));
 }
 
+// A layer of two elements through it has a hole once both have lost both families, not before: the next layer would see half of one.
+TEST(SingleElement, ErodesByColumns) {
+  LayerStack<3> s = make_stack<3>(brick(fabric_laws::paper(), {1, 1, 1}, {1e-3, 1e-3, 0.5e-3}, 3, 2));
+  ThreadPool pool(1);
+  LayerLedger ledger;
+  for (std::size_t element = 0; element < 2; ++element) {
+    for (auto& point : s.largest) {
+      point[0][element] = point[1][element] = 1;
+    }
+    update_forces(s, 0.0, ledger, pool);
+    EXPECT_EQ(s.alive[0], element == 0 ? 1 : 0);
+    EXPECT_EQ(s.alive[1], element == 0 ? 1 : 0);
+  }
+  EXPECT_EQ(ledger.eroded_elements, 2);
+}
+
+// In a plane there is no fill: warp alone decides.
+TEST(SingleElement, ErodesByWarpInAPlane) {
+  LayerStack<2> s = make_stack<2>(brick(fabric_laws::paper(), {1, 1, 1}, {1e-3, 1, 0.5e-3}, 2));
+  ThreadPool pool(1);
+  LayerLedger ledger;
+  s.largest[0][0][0] = s.largest[1][0][0] = 1;
+  update_forces(s, 0.0, ledger, pool);
+  EXPECT_EQ(s.alive[0], 0);
+}
+
 TEST(SingleElement, StaysUntilBothPointsHaveLostBothFamilies) {
   Cube cube(fabric_laws::paper());
   int lost = 0;

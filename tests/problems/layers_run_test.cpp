@@ -167,7 +167,8 @@ TEST(LayersRun, HistoryHasTheColumnsOfTheStack) {
 template <int Dim> std::vector<double> state_of(const Scene<Dim>& scene) {
   const Layers<Dim>& l = scene.layers.at(0);
   const LayerLedger& g = l.ledger;
-  std::vector<double> out = {g.contact_loss, g.friction_loss, g.step_change, g.deepest, l.closing, l.stack.step, static_cast<double>(l.steps), static_cast<double>(g.crushed)};
+  std::vector<double> out = {g.contact_loss, g.friction_loss, g.step_change, g.deepest, l.closing, l.stack.step, static_cast<double>(l.steps), static_cast<double>(g.crushed),
+                             g.edge_impulse[0], g.edge_impulse[1], static_cast<double>(g.behind), static_cast<double>(g.turned_over)};
   const auto add = [&](const std::vector<double>& values) { out.insert(out.end(), values.begin(), values.end()); };
   for (std::size_t d = 0; d < Dim; ++d) {
     add(l.stack.position[d]);
@@ -178,6 +179,12 @@ template <int Dim> std::vector<double> state_of(const Scene<Dim>& scene) {
   }
   add(l.stack.energy);
   add(l.stack.hourglass_energy);
+  add(l.stack.shock_heat);
+  add(l.stack.shock_volume);
+  for (const auto& point : l.stack.largest) {
+    add(point[0]);
+    add(point[1]);
+  }
   for (const auto& c : l.slidelines.pairs) {
     out.push_back(c.taken);
     add(c.tracks[0].gap);

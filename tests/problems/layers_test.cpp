@@ -40,6 +40,9 @@ TEST(Layers, TwoOfArealDensityThicknessAndDensityGiveTheThird) {
   const LayersSpec c = with({set("areal_density=450 g/m2"), set("density=900 kg/m3"), set("layers=2")});
   EXPECT_NEAR(c.thickness, 0.5e-3, 1e-18);
   EXPECT_EQ(c.plies, 2); // of 0.18 kg/m2
+  const LayersSpec half = with({set("areal_density=2.7037 kg/m2")}); // 15 plies' weight: their thickness too
+  EXPECT_EQ(half.plies, 15);
+  EXPECT_NEAR(half.thickness, 15 * 0.23e-3, 1e-15);
   const LayersSpec plies = with({set("plies=58")}); // of 0.23 mm and 0.18025 kg/m2
   EXPECT_NEAR(plies.thickness, 2 * 6.67e-3, 1e-15);
   EXPECT_NEAR(plies.areal_density(), 2 * 5.2272, 1e-12);
