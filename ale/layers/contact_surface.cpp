@@ -109,7 +109,7 @@ template <int Dim> void check_surface(const ContactSurface<Dim>& s, const char* 
     refuse("outside is 1 or -1, the sign of the normal's side that touches");
   }
   for (std::size_t d = 0; d < Dim; ++d) {
-    if (s.position[d] == nullptr || s.velocity[d] == nullptr ) {
+    if (s.position[d] == nullptr || s.velocity[d] == nullptr) {
       refuse("position or velocity is missing");
     }
   }
