@@ -1,10 +1,7 @@
 // Laws of contact between a block and fabric layers: momentum and energy in their account, impedance match.
-#include "ale/fill.hpp"
 #include "ale/layer_coupling.hpp"
-#include "ale/phases.hpp"
 #include "ale/simulation.hpp"
-#include "materials/library.hpp"
-#include "tests/layers/stacks.hpp"
+#include "tests/vest/lead_block.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -18,22 +15,7 @@ constexpr double width = 1e-3;
 /// Linear bulk lead, no strength, flying up at `speed` onto a Hooke plate of `layers` layers; a strip of one or more cells across.
 Scene<2> strip(double speed, int across, int layers, int substeps, const HookeSolid& plate, double gap = 0, int fabric_across = 0) {
   Scene<2> scene;
-  Block<2> b;
-  b.motion = {MotionPolicy::lagrangian, 1};
-  Material lead = *find_material("lead");
-  lead.strength = NoStrength{};
-  lead.failure.reset();
-  lead.specific_energy = energy(lead.eos, lead.density, 0);
-  b.materials.push_back(make_slot(lead, 0));
-  std::array<std::vector<double>, 3> lines;
-  lines[0] = even_lines(0, width, across);
-  lines[1] = even_lines(-6e-3, 0, 60);
-  allocate_block(b, lines);
-  for_each_cell(b, [&](int i, int j, int k) {
-    const CellPart part{0, 1, lead.density, lead.specific_energy};
-    fill_cell<2>(b, i, j, k, std::span(&part, 1));
-  });
-  set_velocity(b, [&](const std::array<double, 2>&, std::array<double, 2>& u) { u[1] = speed; });
+  Block<2> b = lead_block(even_lines(0, width, across), even_lines(-6e-3, 0, 60), {0, speed}, false, false);
   for (const std::size_t side : {0UL, 1UL}) {
     b.boundary.side[0][side] = {BoundaryKind::symmetry, 0};
     b.boundary.side[1][side] = {BoundaryKind::free, 0};

@@ -1,10 +1,7 @@
 // A block that strikes a plate and slides along it: its sides do not plough, Coulomb's law, and the same heat of friction in any substeps.
-#include "ale/fill.hpp"
 #include "ale/layer_coupling.hpp"
-#include "ale/phases.hpp"
 #include "ale/simulation.hpp"
-#include "materials/library.hpp"
-#include "tests/layers/stacks.hpp"
+#include "tests/vest/lead_block.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,21 +11,7 @@ namespace {
 /// Lead of 4 mm by 2 mm, free all around, at 50 m/s along and 10 m/s into a plate above it.
 Scene<2> sliding_block(double friction, int substeps) {
   Scene<2> scene;
-  Block<2> b;
-  b.motion = {MotionPolicy::lagrangian, 1};
-  Material lead = *find_material("lead");
-  lead.failure.reset();
-  lead.specific_energy = energy(lead.eos, lead.density, 0);
-  b.materials.push_back(make_slot(lead, 0));
-  std::array<std::vector<double>, 3> lines;
-  lines[0] = even_lines(0, 4e-3, 8);
-  lines[1] = even_lines(-2e-3, 0, 6);
-  allocate_block(b, lines);
-  for_each_cell(b, [&](int i, int j, int k) {
-    const CellPart part{0, 1, lead.density, lead.specific_energy};
-    fill_cell<2>(b, i, j, k, std::span(&part, 1));
-  });
-  set_velocity(b, [](const std::array<double, 2>&, std::array<double, 2>& u) { u = {50, 10}; });
+  Block<2> b = lead_block(even_lines(0, 4e-3, 8), even_lines(-2e-3, 0, 6), {50, 10});
   for (auto& axis : b.boundary.side) {
     axis = {{{BoundaryKind::free, 0}, {BoundaryKind::free, 0}}};
   }

@@ -1,10 +1,7 @@
 // A lead disc on a printed-law vest around the axis: the parts of the energy account are what they say, not only right in the sum.
-#include "ale/fill.hpp"
 #include "ale/layer_coupling.hpp"
-#include "ale/phases.hpp"
 #include "ale/simulation.hpp"
-#include "materials/library.hpp"
-#include "tests/layers/stacks.hpp"
+#include "tests/vest/lead_block.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,22 +11,7 @@ namespace {
 /// Lead of 6 mm by 3 mm at 370 m/s onto three layers of a vest.
 Scene<2> disc_on_vest() {
   Scene<2> scene;
-  Block<2> b;
-  b.axisymmetric = true;
-  b.motion = {MotionPolicy::lagrangian, 1};
-  Material lead = *find_material("lead");
-  lead.specific_energy = energy(lead.eos, lead.density, 0);
-  lead.failure.reset();
-  b.materials.push_back(make_slot(lead, 0));
-  std::array<std::vector<double>, 3> lines;
-  lines[0] = even_lines(0, 3e-3, 6);
-  lines[1] = even_lines(-3e-3, 0, 6);
-  allocate_block(b, lines);
-  for_each_cell(b, [&](int i, int j, int k) {
-    const CellPart part{0, 1, lead.density, lead.specific_energy};
-    fill_cell<2>(b, i, j, k, std::span(&part, 1));
-  });
-  set_velocity(b, [](const std::array<double, 2>&, std::array<double, 2>& u) { u[1] = 370; });
+  Block<2> b = lead_block(even_lines(0, 3e-3, 6), even_lines(-3e-3, 0, 6), {0, 370}, true);
   b.boundary.side[0] = {{{BoundaryKind::symmetry, 0}, {BoundaryKind::free, 0}}};
   b.boundary.side[1] = {{{BoundaryKind::free, 0}, {BoundaryKind::free, 0}}};
   scene.blocks.push_back(std::move(b));
