@@ -120,6 +120,15 @@ bool check_outline_ends(Deck& deck, DeckNode& axis, const std::vector<double>& l
 
 } // namespace
 
+DeckNode& add_default(DeckNode& table, const std::string& key, DeckNode::Kind kind) {
+  DeckNode node;
+  node.kind = kind;
+  node.key = table.key + "." + key;
+  node.place = table.place;
+  node.defaulted = true;
+  return table.fields.emplace_back(key, std::move(node)).second;
+}
+
 bool read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene) {
   DeckNode* node = mesh.find("map");
   std::vector<std::string> names = {"rectilinear"};

@@ -9,6 +9,9 @@ namespace ballast {
 /// `map`, `outer_radius`, `centre` and `outline` of [mesh]; scene.geometry and motion must be known. False: no such map, its axes mean nothing.
 bool read_map(Deck& deck, DeckNode& mesh, SceneSpec& scene);
 
+/// A field that the deck left to its default, empty as yet.
+DeckNode& add_default(DeckNode& table, const std::string& key, DeckNode::Kind kind);
+
 /// `outline` of a `turned` mesh, placed along z. False and an error: there is none, or it does not fit a mesh.
 bool read_outline(Deck& deck, DeckNode& mesh, SceneSpec& scene);
 

@@ -129,13 +129,7 @@ Boundary read_boundary(Context c, DeckNode& node, std::size_t axis, std::size_t 
 }
 
 void add_text(DeckNode& table, const std::string& key, const std::string& text) {
-  DeckNode node;
-  node.kind = DeckNode::Kind::text;
-  node.key = table.key + "." + key;
-  node.text = text;
-  node.place = table.place;
-  node.defaulted = true;
-  table.fields.emplace_back(key, std::move(node));
+  add_default(table, key, DeckNode::Kind::text).text = text;
 }
 
 void read_mapped_sides(Context c, const Section& in, std::size_t axis) {

@@ -11,7 +11,7 @@ namespace ballast {
 
 namespace {
 
-/// Outline from its base (z, r), and the node an error about its points belongs to.
+/// Outline from its base (z, r).
 std::optional<Profile> read_points(Deck& deck, const Section& in) {
   if (!in.has("use")) {
     if (in.self().find("use") != nullptr) {
@@ -100,13 +100,7 @@ void add_outline_ends(DeckNode& axis_table, const SceneSpec& scene, int axis) {
     if (axis_table.find(key) != nullptr) {
       return;
     }
-    DeckNode number;
-    number.kind = DeckNode::Kind::number;
-    number.key = axis_table.key + "." + key;
-    number.number = value;
-    number.place = axis_table.place;
-    number.defaulted = true;
-    axis_table.fields.emplace_back(key, std::move(number));
+    add_default(axis_table, key, DeckNode::Kind::number).number = value;
   };
   add("from", scene.map.outline.front()[0]);
   add("to", scene.map.outline.back()[0]);
