@@ -1,5 +1,6 @@
 // The Lagrangian step: predict, corner forces, accelerate, move, then work, closure, strength, state.
 #include "ale/absorbing.hpp"
+#include "ale/embedding.hpp"
 #include "ale/lagrange_parts.hpp"
 #include "ale/layer_coupling.hpp"
 #include "ale/outflow.hpp"
@@ -69,7 +70,7 @@ private:
 };
 
 template <int Dim>
-void fill_slab(const Block<Dim>& b, const ForceCoefficients& c, int slab, CornerSlab<Dim>& out) {
+void fill_slab(const Scene<Dim>& scene, const Embedding<Dim>* embedded, const Block<Dim>& b, const ForceCoefficients& c, int slab, CornerSlab<Dim>& out) {
   const Grid& g = b.grid;
   if (slab < 0 || slab >= g.slabs()) {
     out.clear();
@@ -81,6 +82,9 @@ void fill_slab(const Block<Dim>& b, const ForceCoefficients& c, int slab, Corner
     const CornerRows<Dim> rows = out.row_for(q, cells);
     if (!cells.empty()) {
       corner_forces(b, ForceRows<Dim>(b, j, k).from(cells.begin), c, cells.count(), rows.from(cells.begin));
+      if (embedded != nullptr) {
+        override_forces(scene, *embedded, j, k, rows);
+      }
     }
   }
 }
@@ -200,6 +204,7 @@ BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
   const Grid& g = b.grid;
   const int planes = g.slabs() + 1;
   const ForceCoefficients c = force_coefficients(b, scene.numerics, dt);
+  const Embedding<Dim>* embedded = embedding_of(scene, b);
   const bool absorbs = b.boundary.any(BoundaryKind::absorbing);
   std::vector<BoundaryEffect> effects(static_cast<std::size_t>(planes));
   parallel_awake(*scene.pool, &b.awake, planes, [&](int begin, int end, int) {
@@ -209,9 +214,9 @@ BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
     for (int d = 0; d < Dim; ++d) {
       force[d] = buffer.data() + d * (g.cells[0] + 1);
     }
-    fill_slab(b, c, begin - 1, below);
+    fill_slab(scene, embedded, b, c, begin - 1, below);
     for (int plane = begin; plane < end; ++plane) {
-      fill_slab(b, c, plane, here);
+      fill_slab(scene, embedded, b, c, plane, here);
       for (int q = 0; q < (Dim == 3 ? g.cells[1] + 1 : 1); ++q) {
         const int j = Dim == 3 ? q : plane, k = Dim == 3 ? plane : 0;
         const int r = g.node_row(j, k);
@@ -292,13 +297,22 @@ template <int Dim> void move_layers(Scene<Dim>& scene, const Clock& clock) {
   if (scene.layers.empty()) {
     return;
   }
+  for (Embedding<Dim>& e : scene.embedded) {
+    load_layers(scene, e, clock.dt);
+  }
   step_layers(scene, clock.dt);
+  for (Embedding<Dim>& e : scene.embedded) {
+    follow_layers(scene, e, clock.dt);
+  }
   for (Block<Dim>& b : scene.blocks) {
     const WorstCell w = move_cells(scene, b);
     if (!(w.ratio > 0)) {
       throw NumericalFailure(fmt::format("block {}, cell ({}, {}, {}), material {}: contact with the layers would turn it inside out at time {:g} s, dt {:g} s",
                                          b.name, w.cell[0], w.cell[1], w.cell[2], contents(b, w.cell), clock.time, clock.dt));
     }
+  }
+  for (Embedding<Dim>& e : scene.embedded) {
+    embedded_volumes(scene, e);
   }
 }
 
@@ -312,6 +326,9 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
   for (int attempt = 0;; ++attempt) {
     WorstCell worst;
     std::size_t where = 0;
+    for (Embedding<Dim>& e : scene.embedded) {
+      cut_forces(scene, e, clock.dt);
+    }
     for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
       effects[ib] = force_pass(scene, scene.blocks[ib], clock.dt);
       const WorstCell w = move_cells(scene, scene.blocks[ib]);

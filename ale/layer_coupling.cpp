@@ -1,6 +1,7 @@
 #include "ale/layer_coupling.hpp"
 
 #include "ale/block_surface.hpp"
+#include "ale/embedding.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -121,7 +122,7 @@ template <int Dim> void step_layers(Scene<Dim>& scene, double dt) {
   }
   std::vector<std::vector<BlockSurface<Dim>>> blocks;
   for (const Block<Dim>& b : scene.blocks) {
-    blocks.push_back(gather_surfaces(b));
+    blocks.push_back(embedding_of(scene, b) != nullptr ? std::vector<BlockSurface<Dim>>{} : gather_surfaces(b));
   }
   // The rest of the step in equal parts, looked at anew before each: a layer that stiffens shortens what is left.
   double done = 0;
@@ -134,7 +135,7 @@ template <int Dim> void step_layers(Scene<Dim>& scene, double dt) {
     const double h = (1 - done) * dt / count;
     for (Layers<Dim>& l : scene.layers) {
       const Stopwatch watch(l.seconds);
-      substep<Dim>(l.stack, h, l.ledger, *scene.pool, [&] { touch(l, blocks, dt, done, h, *scene.pool); });
+      substep<Dim>(l.stack, h, l.ledger, *scene.pool, [&] { touch(l, blocks, dt, done, h, *scene.pool); }, scene.embedded.empty() ? nullptr : &l.load);
       ++l.steps;
     }
     for (auto& sides : blocks) {

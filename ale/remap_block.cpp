@@ -1,4 +1,5 @@
 // Remap of a block: remap/ moves the conserved quantities, this brings the materials back to a state.
+#include "ale/embedding_remap.hpp"
 #include "ale/outflow.hpp"
 #include "ale/phases.hpp"
 #include "ale/rest.hpp"
@@ -214,6 +215,10 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   place_target(b, *scene.pool);
   remap::Mesh<Dim> mesh = view(b);
   const remap::Settings settings{.normal = scene.numerics.normal, .return_kinetic = scene.numerics.energy_return};
+  Embedding<Dim>* embedded = embedding_of(scene, b);
+  if (embedded != nullptr) {
+    remap_embedded(scene, *embedded, b, mesh, settings, order_at(b.motion, step));
+  }
   const std::vector<OutflowNode> leaving = outflow_nodes(b);
   const remap::Report report = remap::remap(mesh, settings, *scene.pool, order_at(b.motion, step));
   Ledger& l = scene.ledger;
@@ -239,6 +244,9 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   }
   b.at_target = !b.motion.moves_target();
   take_target_volume(b, *scene.pool);
+  if (embedded != nullptr) {
+    restore_open_volumes(scene, *embedded, b);
+  }
   compute_node_mass(b, *scene.pool);
   if (b.any_sliding()) {
     settle_jumps(b, *scene.pool);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ale/block.hpp"
+#include "ale/embedding.hpp"
 #include "ale/layers/layers.hpp"
 #include "core/threads.hpp"
 #include "remap/normal.hpp"
@@ -74,12 +75,14 @@ struct Ledger {
   long closed_voids = 0;          ///< voids closed after remaps: residues, and what compressed materials fill
   long energy_floors = 0;         ///< cells whose energy return was cut to keep e from falling
   long retries = 0;
+  double embedded_given = 0;      ///< J that blocks gave to layers inside them; what of it did not reach them (load_work) is the loss of impacts
 };
 
 template <int Dim> struct Scene {
   std::string title;
   std::vector<Block<Dim>> blocks;
   std::vector<Layers<Dim>> layers; ///< stacks of fabric
+  std::vector<Embedding<Dim>> embedded; ///< of the blocks that they lie in
   Numerics numerics;
   Ledger ledger;
   std::unique_ptr<ThreadPool> pool = std::make_unique<ThreadPool>(1);

@@ -25,6 +25,10 @@ template <int Dim> void check_step(const Scene<Dim>& scene, const DtLimit& stabl
 } // namespace
 
 template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
+  for (Embedding<Dim>& e : scene.embedded) {
+    update_cells(scene, e);
+    tie_nodes(scene, e);
+  }
   const DtLimit stable = stable_dt(scene);
   check_step(scene, stable, clock);
   clock.choose(stable, scene.numerics);
@@ -35,7 +39,9 @@ template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
       remap_block(scene, block, clock.step);
     }
     new_state(scene, block, due);
-    follow_rest(scene, block, due);
+    if (embedding_of(scene, block) == nullptr) {
+      follow_rest(scene, block, due);
+    }
   }
   clock.advance();
 }
@@ -94,6 +100,9 @@ void Clock::advance() {
 }
 
 template <int Dim> void prepare(Scene<Dim>& scene) {
+  for (Embedding<Dim>& e : scene.embedded) {
+    prepare_embedding(scene, e);
+  }
   for (Block<Dim>& b : scene.blocks) {
     scene.ledger.mass_out.resize(std::max(scene.ledger.mass_out.size(), b.materials.size()), 0.0);
     compute_node_mass(b, *scene.pool);

@@ -11,6 +11,7 @@
 // oscillator, L / (Q + sqrt(Q^2 + c^2)), for a CFL number of one.
 #include "ale/layer_coupling.hpp"
 #include "ale/corner_force.hpp"
+#include "ale/embedding.hpp"
 #include "ale/phases.hpp"
 #include "core/hex_geometry.hpp"
 
@@ -271,6 +272,10 @@ template <int Dim> DtLimit stable_dt(Scene<Dim>& scene) {
         }
       }
     });
+    Embedding<Dim>* embedded = embedding_of(scene, b);
+    if (embedded != nullptr) {
+      embedded_rates(*embedded, b);
+    }
     for (auto& f : b.strain_rate) {
       exchange_cells(g, f, &b.awake);
     }
@@ -288,6 +293,9 @@ template <int Dim> DtLimit stable_dt(Scene<Dim>& scene) {
       if (limit.dt < best.dt) {
         best = limit;
       }
+    }
+    if (embedded != nullptr) {
+      limit_embedded(scene, *embedded, best);
     }
   }
   return best;

@@ -1,5 +1,6 @@
 // What a Lagrangian step does to the cells: work, the closure's shares, strength.
 #include "ale/closure.hpp"
+#include "ale/embedding.hpp"
 #include "ale/lagrange_parts.hpp"
 #include "ale/strength_update.hpp"
 #include "ale/traction.hpp"
@@ -243,6 +244,9 @@ void advance_row(Scene<Dim>& scene,
                    force_coefficients(b, scene.numerics, dt),
                    cells.count(),
                    buffer.rows.from(cells.begin));
+  if (const Embedding<Dim>* e = embedding_of(scene, b)) {
+    override_work(scene, *e, j, k, dt, buffer.rows);
+  }
   buffer.runs.scan(b.owner_row(r), cells);
   for (const RowRuns::Run& run : buffer.runs.pure) {
     if (b.materials[static_cast<std::size_t>(run.material)].is_void) {

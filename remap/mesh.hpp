@@ -86,6 +86,8 @@ template <int Dim> struct Mesh {
   const Awake* awake = nullptr; ///< optional: what else there is stays as it is, so nothing looks at it
   std::array<RowField, Dim>* kept_target = nullptr; ///< optional: holds the same as target and may take position's place
   std::function<void(RowField&, int)> exchange_velocity; ///< fills ghosts of a component
+  /// Optional: faces that sweep nothing, nonzero at the cell above, by cell rows with ghosts as in `owner`.
+  const std::array<std::vector<char>, Dim>* closed = nullptr;
 
   /// Cells, nodes and faces of a row that are awake, by the number of the cell or node row.
   Span cells(int row) const { return awake != nullptr ? awake->cells(row) : Span{0, grid.cells[0]}; }

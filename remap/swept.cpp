@@ -66,6 +66,15 @@ void add_leg(const Grid& g, int axis, int j, int k, int d, Span faces, const Nod
   }
 }
 
+template <int Dim> void close_faces(const Mesh<Dim>& m, int axis, int r, Span faces, double* out) {
+  if (m.closed != nullptr) {
+    const char* closed = (*m.closed)[static_cast<std::size_t>(axis)].data() + static_cast<std::ptrdiff_t>(r) * m.grid.cell_pitch() + m.grid.ghost[0];
+    for (int i = faces.begin; i < faces.end; ++i) {
+      out[i] = closed[i] != 0 ? 0.0 : out[i];
+    }
+  }
+}
+
 } // namespace
 
 template <int Dim>
@@ -104,6 +113,7 @@ void compute_swept(Mesh<Dim>& m, ThreadPool& pool, const std::array<RowField, Di
               add_leg<false>(g, axis, j, faces, leg[q], leg[q + 1], out);
             }
           }
+          close_faces(m, axis, g.cell_row(j, k), faces, out);
         }
       }
     }

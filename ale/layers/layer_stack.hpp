@@ -139,6 +139,7 @@ struct LayerLedger {
   double deepest = 0;            ///< m: largest penetration of neighbouring layers seen
   double edge_loss = 0;          ///< kinetic energy of nodes that a held edge stopped at the start
   double step_change = 0;        ///< what the account's kinetic energy lost where a step was longer than the one before
+  double load_work = 0;          ///< done on the stack by the mesh it lies in (ale/layers/layer_load)
 };
 
 /// What a stack is made of.

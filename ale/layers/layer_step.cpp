@@ -75,7 +75,7 @@ template <int Dim> void stop_at_axis(LayerStack<Dim>& s, double dt) {
   }
 }
 
-template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact) {
+template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact, LayerLoad<Dim>* load) {
   kick(s, dt / 2, ledger, pool);
   keep_velocity(s);
   stop_folds(s, dt, held_nodes(s), ledger, pool);
@@ -85,8 +85,15 @@ template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledg
   stop_at_axis(s, dt);
   book_contact(s, dt, ledger, pool);
   book_work(s, dt / 2, ledger, pool);
+  if (load != nullptr) {
+    book_load(s, *load, dt / 2, ledger);
+  }
   drift(s, dt, pool);
   update_forces(s, dt, ledger, pool);
+  if (load != nullptr) {
+    put_on(s, *load);
+    book_load(s, *load, dt / 2, ledger);
+  }
   book_work(s, dt / 2, ledger, pool);
   kick(s, dt / 2, ledger, pool);
   s.step = dt;
@@ -130,8 +137,8 @@ template void drift<2>(LayerStack<2>&, double, ThreadPool&);
 template void drift<3>(LayerStack<3>&, double, ThreadPool&);
 template void stop_at_axis<2>(LayerStack<2>&, double);
 template void stop_at_axis<3>(LayerStack<3>&, double);
-template void substep<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&);
-template void substep<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&);
+template void substep<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&, LayerLoad<2>*);
+template void substep<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&, LayerLoad<3>*);
 template LayerTotals totals<2>(const LayerStack<2>&);
 template LayerTotals totals<3>(const LayerStack<3>&);
 

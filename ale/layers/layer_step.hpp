@@ -5,11 +5,12 @@
 //   update_forces (ale/layers/layer_forces)
 //   kick   v = v_half + dt/2 f/m
 // Work is booked at v_half after contact with the forces at both ends of the drift (ale/layers/layer_account):
-// leapfrog_kinetic + internal + hourglass + shock_heat of the totals and edge_work + edge_loss + contact_loss + step_change of the ledger keep to
-// round-off for any steps. Positions and velocities are those of velocity Verlet; only the account is that of leapfrog.
+// leapfrog_kinetic + internal + hourglass + shock_heat of the totals and edge_work + edge_loss + contact_loss + step_change - load_work of the
+// ledger keep to round-off for any steps. Positions and velocities are those of velocity Verlet; only the account is that of leapfrog.
 #pragma once
 
 #include "ale/layers/layer_forces.hpp"
+#include "ale/layers/layer_load.hpp"
 
 #include <functional>
 
@@ -37,8 +38,8 @@ template <int Dim> void drift(LayerStack<Dim>& stack, double dt, ThreadPool& poo
 /// where cloth has no strength when pressed in its plane nothing else does, and elements would turn inside out. An impact: contact_loss.
 template <int Dim> void stop_at_axis(LayerStack<Dim>& stack, double dt);
 
-/// One step of all phases; contact() is called between the first kick and the drift.
-template <int Dim> void substep(LayerStack<Dim>& stack, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact = {});
+/// One step of all phases; contact() is called between the first kick and the drift. `load` is on the stack (ale/layers/layer_load).
+template <int Dim> void substep(LayerStack<Dim>& stack, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact = {}, LayerLoad<Dim>* load = nullptr);
 
 /// Sums over nodes and elements, in their order. Around an axis momentum is along it only, and has no moment.
 struct LayerTotals {

@@ -1,6 +1,7 @@
 // Layers: a stack of fabric layers in a scene, with its contacts and its account.
 #pragma once
 
+#include "ale/layers/layer_load.hpp"
 #include "ale/layers/layer_step.hpp"
 #include "ale/layers/slideline.hpp"
 
@@ -15,6 +16,7 @@ template <int Dim> struct Layers {
   double cfl = 0.7;        ///< of the wave step of its elements (stable_step)
   int substeps = 1;        ///< in a step of the scene, at least; as many as stability takes
 
+  LayerLoad<Dim> load; ///< of a mesh that the stack lies in, during a step
   SlidelineState<Dim> slidelines;
   std::vector<char> above; ///< by block: does the stack lie above it, along the last axis, at the start?
   std::vector<ContactState<Dim>> with_blocks; ///< by block, side and layer, as ale/layer_coupling counts them

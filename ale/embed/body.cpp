@@ -1,0 +1,292 @@
+#include "ale/embed/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace ballast {
+
+namespace {
+
+template <std::size_t N> double dot(const std::array<double, N>& a, const std::array<double, N>& b) {
+  double sum = 0;
+  for (std::size_t d = 0; d < N; ++d) {
+    sum += a[d] * b[d];
+  }
+  return sum;
+}
+template <std::size_t N> std::array<double, N> minus(const std::array<double, N>& a, const std::array<double, N>& b) {
+  std::array<double, N> out{};
+  for (std::size_t d = 0; d < N; ++d) {
+    out[d] = a[d] - b[d];
+  }
+  return out;
+}
+
+/// Levels of the first and the last element left of a column, first above last: none.
+struct Column {
+  int first = 0, last = -1;
+  bool empty() const { return first > last; }
+};
+
+template <int Dim> Column column_at(const LayerStack<Dim>& s, int i, int j) {
+  Column c{s.grid.levels(), -1};
+  for (int level = 0; level < s.grid.levels(); ++level) {
+    if (s.alive[s.element(i, j, level)] != 0) {
+      c.first = std::min(c.first, level);
+      c.last = level;
+    }
+  }
+  return c;
+}
+
+/// Room (m) that a column's node lacks to `least`, shared between its lower and upper faces: where it has lost elements, since
+/// that room was covered before, else below.
+struct Padding {
+  double below = 0, above = 0;
+};
+Padding padding(double least, double left, double lost_below, double lost_above) {
+  const double need = std::max(0.0, least - left), lost = lost_below + lost_above;
+  const double share = lost > 0 ? lost_below / lost : 1.0;
+  return {need * share, need * (1 - share)};
+}
+
+} // namespace
+
+/// Around each run of columns: along the lower faces, up the rim, back along the upper ones; the body lies to the left.
+template <> void Body<2>::add_faces(const LayerStack<2>& s, double least) {
+  const int n = s.grid.elements[0];
+  std::vector<Column> columns;
+  for (int i = 0; i < n; ++i) {
+    columns.push_back(column_at(s, i, 0));
+  }
+  const double bottom = s.levels.front(), top = s.levels.back();
+  const auto vertex = [&](int i, int plane, bool lower, const Column& c) {
+    const std::size_t node = s.node(i, 0, plane);
+    const double low = s.rest[1][s.node(i, 0, s.plane_below(c.first))], high = s.rest[1][s.node(i, 0, s.plane_below(c.last) + 1)];
+    const Padding pad = padding(least, high - low, low - bottom, top - high);
+    Vertex v{node, {s.position[0][node], s.position[1][node]}, lower ? pad.below : pad.above, {}, false};
+    vertices_.push_back(v);
+    return static_cast<int>(vertices_.size()) - 1;
+  };
+  for (int begin = 0; begin < n;) {
+    if (columns[static_cast<std::size_t>(begin)].empty()) {
+      ++begin;
+      continue;
+    }
+    int end = begin;
+    while (end < n && !columns[static_cast<std::size_t>(end)].empty()) {
+      ++end;
+    }
+    std::vector<int> lower, upper; // along i
+    for (int i = begin; i < end; ++i) {
+      const Column& c = columns[static_cast<std::size_t>(i)];
+      const int low = s.plane_below(c.first), high = s.plane_below(c.last) + 1;
+      for (const int at : {i, i + 1}) {
+        if (lower.empty() || vertices_[static_cast<std::size_t>(lower.back())].node != s.node(at, 0, low)) {
+          lower.push_back(vertex(at, low, true, c));
+        }
+      }
+      for (const int at : {i, i + 1}) {
+        if (upper.empty() || vertices_[static_cast<std::size_t>(upper.back())].node != s.node(at, 0, high)) {
+          upper.push_back(vertex(at, high, false, c));
+        }
+      }
+    }
+    const auto face = [&](int a, int b, int side) {
+      auto &va = vertices_[static_cast<std::size_t>(a)], &vb = vertices_[static_cast<std::size_t>(b)];
+      const std::array<double, 2> along = minus(vb.x, va.x);
+      const double length = std::sqrt(dot(along, along));
+      if (!(length > 0)) {
+        return;
+      }
+      const std::array<double, 2> normal = {along[1] / length, -along[0] / length};
+      for (std::size_t d = 0; d < 2; ++d) {
+        va.normal[d] += normal[d];
+        vb.normal[d] += normal[d];
+      }
+      faces_.push_back({{a, b}, normal, side});
+    };
+    // The stack's own edge is no rim unless it is free: beyond it the faces go on.
+    const bool goes_on_low = begin == 0 && s.edge[0][0] != LayerEdge::free, goes_on_high = end == n && s.edge[0][1] != LayerEdge::free;
+    for (std::size_t k = 0; k + 1 < lower.size(); ++k) {
+      face(lower[k], lower[k + 1], 0);
+    }
+    if (!goes_on_high) {
+      face(lower.back(), upper.back(), 2);
+    }
+    for (std::size_t k = upper.size(); k-- > 1;) {
+      face(upper[k], upper[k - 1], 1);
+    }
+    if (!goes_on_low) {
+      face(upper.front(), lower.front(), 2);
+    }
+    if (goes_on_low) {
+      vertices_[static_cast<std::size_t>(lower.front())].end = vertices_[static_cast<std::size_t>(upper.front())].end = true;
+    }
+    if (goes_on_high) {
+      vertices_[static_cast<std::size_t>(lower.back())].end = vertices_[static_cast<std::size_t>(upper.back())].end = true;
+    }
+    begin = end;
+  }
+}
+
+template <int Dim> Body<Dim>::Body(const LayerStack<Dim>& stack, double least_thickness, double bin) {
+  add_faces(stack, least_thickness);
+  if (!faces_.empty()) {
+    fill_bins(bin);
+  }
+}
+
+template <int Dim> void Body<Dim>::fill_bins(double bin) {
+  low_ = high_ = vertices_.front().x;
+  for (const Vertex& v : vertices_) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      low_[d] = std::min(low_[d], v.x[d]);
+      high_[d] = std::max(high_[d], v.x[d]);
+    }
+  }
+  bin_ = bin;
+  constexpr double most = 4096; // bins along an axis
+  std::size_t count = 1;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    bin_ = std::max(bin_, (high_[d] - low_[d]) / most);
+  }
+  for (std::size_t d = 0; d < Dim; ++d) {
+    bins_[d] = static_cast<int>((high_[d] - low_[d]) / bin_) + 1;
+    count *= static_cast<std::size_t>(bins_[d]);
+  }
+  const auto for_bins = [&](const Face& f, auto&& body) {
+    std::array<int, Dim> a{}, b{};
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double lo = vertices_[static_cast<std::size_t>(f.vertex[0])].x[d], hi = lo;
+      for (const int v : f.vertex) {
+        lo = std::min(lo, vertices_[static_cast<std::size_t>(v)].x[d]);
+        hi = std::max(hi, vertices_[static_cast<std::size_t>(v)].x[d]);
+      }
+      a[d] = static_cast<int>((lo - low_[d]) / bin_);
+      b[d] = static_cast<int>((hi - low_[d]) / bin_);
+    }
+    std::array<int, Dim> at = a;
+    for (;;) {
+      std::size_t where = 0;
+      for (std::size_t d = Dim; d-- > 0;) {
+        where = where * static_cast<std::size_t>(bins_[d]) + static_cast<std::size_t>(at[d]);
+      }
+      body(where);
+      std::size_t d = 0;
+      while (d < Dim && ++at[d] > b[d]) {
+        at[d] = a[d];
+        ++d;
+      }
+      if (d == Dim) {
+        return;
+      }
+    }
+  };
+  first_.assign(count + 1, 0);
+  for (const Face& f : faces_) {
+    for_bins(f, [&](std::size_t at) { ++first_[at + 1]; });
+  }
+  for (std::size_t at = 0; at < count; ++at) {
+    first_[at + 1] += first_[at];
+  }
+  binned_.resize(static_cast<std::size_t>(first_.back()));
+  std::vector<int> next(first_.begin(), first_.end() - 1);
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    for_bins(faces_[f], [&](std::size_t at) { binned_[static_cast<std::size_t>(next[at]++)] = static_cast<int>(f); });
+  }
+}
+
+template <> bool Body<2>::foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out) const {
+  if (faces_.empty()) {
+    return false;
+  }
+  double pad = 0, best = 1e300;
+  for (const Vertex& v : vertices_) {
+    pad = std::max(pad, v.offset);
+  }
+  const double far = reach + pad;
+  std::array<int, 2> a{}, b{};
+  for (std::size_t d = 0; d < 2; ++d) {
+    // What lies beyond an end looks at the end's own bin.
+    a[d] = static_cast<int>(std::clamp(std::floor((point[d] - far - low_[d]) / bin_), -1.0, static_cast<double>(bins_[d])));
+    b[d] = static_cast<int>(std::clamp(std::floor((point[d] + far - low_[d]) / bin_), -1.0, static_cast<double>(bins_[d])));
+    if (d == 0) {
+      a[d] = std::min(a[d], bins_[d] - 1);
+      b[d] = std::max(b[d], 0);
+    }
+    a[d] = std::max(a[d], 0);
+    b[d] = std::min(b[d], bins_[d] - 1);
+  }
+  double best_part = 0;
+  int found = -1;
+  for (int y = a[1]; y <= b[1]; ++y) {
+    for (int x = a[0]; x <= b[0]; ++x) {
+      const auto at = static_cast<std::size_t>(y * bins_[0] + x);
+      for (int q = first_[at]; q < first_[at + 1]; ++q) {
+        const int f = binned_[static_cast<std::size_t>(q)];
+        const Face& face = faces_[static_cast<std::size_t>(f)];
+        const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
+        const auto along = minus(vb.x, va.x), from = minus(point, va.x);
+        double t = dot(from, along) / dot(along, along);
+        t = va.end && t < 0 ? t : std::max(t, 0.0);
+        t = vb.end && t > 1 ? t : std::min(t, 1.0);
+        const std::array<double, 2> off = {from[0] - t * along[0], from[1] - t * along[1]};
+        const double square = dot(off, off);
+        if (square < best || (square == best && f < found)) {
+          best = square;
+          best_part = t;
+          found = f;
+        }
+      }
+    }
+  }
+  if (found < 0 || best > far * far) {
+    return false;
+  }
+  const Face& face = faces_[static_cast<std::size_t>(found)];
+  const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
+  const auto along = minus(vb.x, va.x), from = minus(point, va.x);
+  const std::array<double, 2> off = {from[0] - best_part * along[0], from[1] - best_part * along[1]};
+  const bool at_a = best_part == 0 && !va.end, at_b = best_part == 1 && !vb.end;
+  const std::array<double, 2>& outward = at_a ? va.normal : at_b ? vb.normal : face.normal;
+  const double distance = std::sqrt(best), scale = std::sqrt(dot(along, along));
+  const bool outside = dot(off, outward) > 0;
+  if (distance > 1e-9 * scale && (at_a || at_b)) {
+    for (std::size_t d = 0; d < 2; ++d) {
+      out.normal[d] = (outside ? 1 : -1) * off[d] / distance;
+    }
+  } else {
+    const double length = std::sqrt(dot(outward, outward));
+    for (std::size_t d = 0; d < 2; ++d) {
+      out.normal[d] = length > 0 ? outward[d] / length : face.normal[d];
+    }
+  }
+  out.node = {va.node, vb.node};
+  out.weight = {1 - best_part, best_part};
+  out.level = (outside ? distance : -distance) - ((1 - best_part) * va.offset + best_part * vb.offset);
+  out.side = face.side;
+  return std::abs(out.level) <= reach;
+}
+
+template <> bool Body<2>::inside(const std::array<double, 2>& p) const {
+  bool in = false; // a ray along the last axis, down: closed at ends that go on, since faces reach on there
+  for (const Face& face : faces_) {
+    const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
+    double x = p[0];
+    const bool forward = va.x[0] < vb.x[0];
+    const Vertex &left = forward ? va : vb, &right = forward ? vb : va;
+    x = left.end && x < left.x[0] ? left.x[0] : x;
+    x = right.end && x >= right.x[0] ? std::nextafter(right.x[0], left.x[0]) : x;
+    if ((va.x[0] <= x) != (vb.x[0] <= x)) {
+      const double y = va.x[1] + (x - va.x[0]) / (vb.x[0] - va.x[0]) * (vb.x[1] - va.x[1]);
+      in = in != (y < p[1]);
+    }
+  }
+  return in;
+}
+
+template Body<2>::Body(const LayerStack<2>&, double, double);
+
+} // namespace ballast

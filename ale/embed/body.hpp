@@ -1,0 +1,65 @@
+// Body: a stack of layers as what lies in a mesh's way, its outer faces and the signed distance to them.
+//
+// The faces are those of the first and the last element that is left of every column through the stack, and at rims the way from
+// one to the other; what is between plies belongs to the body. A mesh sees a body only if it is thick enough: a cell must not have
+// open corners on both sides, so a stack thinner than `least_thickness` is taken as that thick, the room added to its lower face
+// first where it has lost elements (ale/embed/body.cpp). Distances are to straight faces; the foot says which nodes carry it.
+#pragma once
+
+#include "ale/layers/layer_stack.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace ballast {
+
+/// Where a point stands to a body.
+template <int Dim> struct BodyFoot {
+  static constexpr int most = Dim == 2 ? 2 : 3;
+  double level = 0;                        ///< signed distance, m: positive outside
+  std::array<double, Dim> normal = {};     ///< its gradient, a unit vector
+  std::array<std::size_t, most> node = {}; ///< of the stack, that carry the foot
+  std::array<double, most> weight = {};    ///< their sum is one
+  int side = 0;                            ///< 0: on the lower face, 1: upper, 2: rim
+};
+
+template <int Dim> class Body {
+public:
+  /// The outer faces of a stack as it stands; `bin` (m): about the distance at which points are asked for.
+  Body(const LayerStack<Dim>& stack, double least_thickness, double bin);
+
+  /// The foot of a point if it is within `reach` (m) of the body's faces. Sides alike: the lower-numbered face.
+  bool foot(const std::array<double, Dim>& point, double reach, BodyFoot<Dim>& out) const;
+
+  /// Is a point inside, however far from the faces?
+  bool inside(const std::array<double, Dim>& point) const;
+
+  bool empty() const { return faces_.empty(); }
+
+private:
+  struct Vertex {
+    std::size_t node;
+    std::array<double, Dim> x;
+    double offset;                 ///< m, outward: what the body is made thicker
+    std::array<double, Dim> normal; ///< sum of its faces', not unit
+    bool end = false;              ///< beyond it the face goes on: a plane of symmetry, or the stack's edge
+  };
+  struct Face {
+    std::array<int, BodyFoot<Dim>::most> vertex;
+    std::array<double, Dim> normal; ///< unit
+    int side;
+  };
+
+  void add_faces(const LayerStack<Dim>& stack, double least_thickness);
+  void fill_bins(double bin);
+
+  std::vector<Vertex> vertices_;
+  std::vector<Face> faces_;
+  std::array<double, Dim> low_ = {}, high_ = {};
+  std::array<int, Dim> bins_ = {};
+  double bin_ = 0;
+  std::vector<int> first_, binned_; ///< faces by bin
+};
+
+} // namespace ballast

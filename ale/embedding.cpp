@@ -1,0 +1,308 @@
+// Where the bodies are: levels of nodes, kinds of cells, open volumes.
+#include "ale/embedding.hpp"
+
+#include "ale/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ballast {
+
+namespace {
+
+constexpr double reach_in_edges = 2.2;   ///< of a node's longest edge: all nodes of cut cells and of their neighbours
+constexpr double least_open = 1e-10;     ///< of a cell: less is covered
+
+/// Longest and shortest edge at a node, m.
+template <int Dim> std::array<double, 2> edges_at(const Grid& g, const std::array<RowField, Dim>& x, int i, int j, int k) {
+  double longest = 0, shortest = std::numeric_limits<double>::infinity();
+  const int index[3] = {i, j, k};
+  for (int a = 0; a < Dim; ++a) {
+    for (const int side : {-1, 1}) {
+      int to[3] = {i, j, k};
+      to[a] += side;
+      if (to[a] < 0 || to[a] > g.cells[static_cast<std::size_t>(a)]) {
+        continue;
+      }
+      double square = 0;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const double dx = x[d].row(g.node_row(to[1], to[2]))[to[0]] - x[d].row(g.node_row(index[1], index[2]))[index[0]];
+        square += dx * dx;
+      }
+      longest = std::max(longest, std::sqrt(square));
+      shortest = std::min(shortest, std::sqrt(square));
+    }
+  }
+  return {longest, shortest};
+}
+
+template <int Dim, class Body> void for_nodes(const Grid& g, Body&& body) {
+  for (int k = 0; k <= (Dim == 3 ? g.cells[2] : 0); ++k) {
+    for (int j = 0; j <= g.cells[1]; ++j) {
+      for (int i = 0; i <= g.cells[0]; ++i) {
+        body(i, j, k);
+      }
+    }
+  }
+}
+
+template <int Dim, class Body> void for_cells(const Grid& g, Body&& body) {
+  for (int k = 0; k < g.cells[2]; ++k) {
+    for (int j = 0; j < g.cells[1]; ++j) {
+      for (int i = 0; i < g.cells[0]; ++i) {
+        body(i, j, k);
+      }
+    }
+  }
+}
+
+/// Volumes of the cell's materials become `parts` of `volume`; what is missing is void.
+template <int Dim> void set_volumes(Block<Dim>& b, int r, int i, double volume, const std::vector<double>& parts) {
+  double sum = 0;
+  const auto hole = static_cast<std::size_t>(b.void_index());
+  for (std::size_t m = 0; m < b.materials.size(); ++m) {
+    sum += m == hole ? 0.0 : parts[m];
+  }
+  const double shrink = sum > volume ? volume / sum : 1.0;
+  double left = 1;
+  for (std::size_t m = 0; m < b.materials.size(); ++m) {
+    if (m != hole && b.materials[m].store.has_row(r)) {
+      const double f = parts[m] * shrink / volume;
+      b.materials[m].store.row(field::fraction, r)[i] = f;
+      left -= f;
+    }
+  }
+  TileStore& gap = b.materials[hole].store;
+  gap.allocate(gap.tile_of(r));
+  gap.row(field::fraction, r)[i] = left > 1e-14 ? left : 0.0;
+}
+
+template <int Dim> std::vector<double> volumes_of(const Block<Dim>& b, int r, int i, double volume) {
+  std::vector<double> parts;
+  for (const MaterialSlot& slot : b.materials) {
+    parts.push_back(slot.store.row(field::fraction, r)[i] * volume);
+  }
+  return parts;
+}
+
+template <int Dim> bool holds_mass(const Block<Dim>& b, int r, int i) {
+  double mass = 0;
+  for (const MaterialSlot& slot : b.materials) {
+    mass += slot.is_void ? 0.0 : slot.store.row(field::mass, r)[i];
+  }
+  return mass > 0;
+}
+
+/// All of what the cell holds goes; void is left.
+template <int Dim> void empty_cell(Block<Dim>& b, int r, int i) {
+  for (MaterialSlot& slot : b.materials) {
+    for (int f = 0; f < slot.store.conserved() && slot.store.has_row(r) && !slot.is_void; ++f) {
+      slot.store.row(f, r)[i] = 0;
+    }
+  }
+  TileStore& gap = b.materials.back().store;
+  gap.allocate(gap.tile_of(r));
+  gap.row(field::fraction, r)[i] = 1;
+}
+
+double whole_volume(const Block<2>& b, const std::array<RowField, 2>& x, int i, int j, int k) {
+  std::vector<double> v(static_cast<std::size_t>(b.grid.cells[0]));
+  cell_volumes(b, x, j, k, {i, i + 1}, v.data());
+  return v[static_cast<std::size_t>(i)];
+}
+double whole_volume(const Block<3>& b, const std::array<RowField, 3>& x, int i, int j, int k) {
+  std::vector<double> v(static_cast<std::size_t>(b.grid.cells[0]));
+  cell_volumes(b, x, j, k, {i, i + 1}, v.data());
+  return v[static_cast<std::size_t>(i)];
+}
+
+} // namespace
+
+template <int Dim> std::vector<Body<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e) {
+  std::vector<Body<Dim>> out;
+  for (const Layers<Dim>& l : scene.layers) {
+    out.emplace_back(l.stack, e.least_thickness, e.least_thickness);
+  }
+  return out;
+}
+
+template <int Dim>
+Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position, const std::vector<Body<Dim>>& bodies, const Levels<Dim>* before) {
+  Levels<Dim> out;
+  out.level = RowField::of_nodes(g, 1.0);
+  out.foot_of.assign(static_cast<std::size_t>(g.node_pitch()) * static_cast<std::size_t>(g.node_rows()), -1);
+  for_nodes<Dim>(g, [&](int i, int j, int k) {
+    const int r = g.node_row(j, k);
+    std::array<double, Dim> x{};
+    for (std::size_t d = 0; d < Dim; ++d) {
+      x[d] = position[d].row(r)[i];
+    }
+    const double reach = reach_in_edges * edges_at<Dim>(g, position, i, j, k)[0];
+    NodeFoot<Dim> best{{}, -1, r, i, false};
+    for (std::size_t s = 0; s < bodies.size(); ++s) {
+      BodyFoot<Dim> f;
+      if (bodies[s].foot(x, reach, f) && (best.stack < 0 || f.level < best.foot.level)) {
+        best.foot = f;
+        best.stack = static_cast<int>(s);
+      }
+    }
+    double& level = out.level.row(r)[i];
+    if (best.stack >= 0) {
+      level = best.foot.level;
+      out.foot_of[node_at(g, r, i)] = static_cast<int>(out.feet.size());
+      out.feet.push_back(best);
+      return;
+    }
+    bool inside = false;
+    if (before != nullptr) {
+      inside = !(before->level.row(r)[i] > 0);
+    } else {
+      for (const Body<Dim>& body : bodies) {
+        inside = inside || body.inside(x);
+      }
+    }
+    level = inside ? -reach : reach;
+  });
+  return out;
+}
+
+template <int Dim>
+LevelCell<Dim> level_cell(const Grid& g, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, const std::array<int, 3>& cell) {
+  LevelCell<Dim> out;
+  for (int p = 0; p < (1 << Dim); ++p) {
+    const auto step = corner_step<Dim>(p);
+    const int r = g.node_row(cell[1] + step[1], cell[2] + step[2]), i = cell[0] + step[0];
+    for (std::size_t d = 0; d < Dim; ++d) {
+      out.x[static_cast<std::size_t>(p)][d] = position[d].row(r)[i];
+    }
+    out.level[static_cast<std::size_t>(p)] = levels.level.row(r)[i];
+  }
+  return out;
+}
+
+template <int Dim>
+void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut) {
+  const Grid& g = b.grid;
+  kind.assign(static_cast<std::size_t>(g.cell_pitch()) * static_cast<std::size_t>(g.cell_rows()), open_cell);
+  cut.clear();
+  for_cells<Dim>(g, [&](int i, int j, int k) {
+    const LevelCell<Dim> c = level_cell<Dim>(g, position, levels, {i, j, k});
+    int& what = kind[static_cast<std::size_t>(g.cell_row(j, k) * g.cell_pitch() + i + g.ghost[0])];
+    if (c.open()) {
+      return;
+    }
+    if (c.covered()) {
+      what = covered_cell;
+      return;
+    }
+    const double whole = whole_volume(b, position, i, j, k);
+    if (!(open_volume(c, b.axisymmetric) > least_open * whole)) {
+      what = covered_cell;
+      return;
+    }
+    what = static_cast<int>(cut.size());
+    cut.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false});
+  });
+}
+
+template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e) {
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  const Grid& g = b.grid;
+  e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), nullptr);
+  find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+  for_cells<Dim>(g, [&](int i, int j, int k) {
+    const int r = g.cell_row(j, k), kind = e.kind_of(g, r, i);
+    if (kind == covered_cell) {
+      empty_cell(b, r, i);
+    } else if (kind >= 0) {
+      const double whole = b.volume.row(r)[i], open = open_volume(level_cell<Dim>(g, b.position, e.now, {i, j, k}), b.axisymmetric);
+      std::vector<double> parts = volumes_of(b, r, i, whole);
+      double& gap = parts.back(); // void gives way first
+      const double taken = std::min(gap, whole - open), left = whole - gap;
+      gap -= taken;
+      const double keep = left > 0 ? (open - gap) / left : 1.0;
+      for (std::size_t m = 0; m + 1 < parts.size(); ++m) {
+        parts[m] *= keep;
+        if (b.materials[m].store.has_row(r)) {
+          b.materials[m].store.row(field::mass, r)[i] *= keep;
+        }
+      }
+      b.volume.row(r)[i] = open;
+      set_volumes(b, r, i, open, parts);
+    }
+  });
+}
+
+/// Volumes that have changed though nothing moved: elements have gone. Void takes their room.
+template <int Dim> static void take_room(Block<Dim>& b, Embedding<Dim>& e) {
+  const Grid& g = b.grid;
+  for (const CutCell<Dim>& c : e.cut) {
+    const int r = c.row, i = c.cell[0];
+    const double open = open_volume(level_cell<Dim>(g, b.position, e.now, c.cell), b.axisymmetric);
+    double& volume = b.volume.row(r)[i];
+    if (std::abs(open - volume) > 1e-12 * c.whole) {
+      const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
+      volume = std::max(open, 0.5 * (volume - parts.back()));
+      set_volumes(b, r, i, volume, parts);
+    }
+  }
+}
+
+template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  const Grid& g = b.grid;
+  const std::vector<int> before = e.kind;
+  e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), &e.now);
+  find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+  take_room(b, e);
+  for_cells<Dim>(g, [&](int i, int j, int k) { // cells that have come free
+    const int r = g.cell_row(j, k);
+    const std::size_t at = e.cell_at(g, r, i);
+    if (e.kind[at] == open_cell && before[at] != open_cell) {
+      const double whole = whole_volume(b, b.position, i, j, k);
+      double& volume = b.volume.row(r)[i];
+      if (std::abs(whole - volume) > 1e-12 * whole) {
+        const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
+        volume = whole;
+        set_volumes(b, r, i, whole, parts);
+      }
+    }
+  });
+}
+
+template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  const Grid& g = b.grid;
+  const Levels<Dim> next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), &e.now);
+  for_cells<Dim>(g, [&](int i, int j, int k) {
+    const LevelCell<Dim> c = level_cell<Dim>(g, b.next_position, next, {i, j, k});
+    if (c.open()) {
+      return;
+    }
+    const int r = g.cell_row(j, k);
+    double& volume = b.next_volume.row(r)[i];
+    const double open = c.covered() ? 0.0 : open_volume(c, b.axisymmetric), old = b.volume.row(r)[i];
+    if (!holds_mass(b, r, i)) {
+      volume = open > least_open * volume ? open : volume;
+      return;
+    }
+    // What a body would bury is not crushed by it: the remap hands it on.
+    const double gap = b.materials.back().store.row(field::fraction, r)[i];
+    volume = std::max(open, (gap > 0 ? 0.9 * (1 - gap) : 0.3) * old);
+  });
+}
+
+#define BALLAST_INSTANTIATE(D)                                                                                                                       \
+  template std::vector<Body<D>> bodies_of<D>(const Scene<D>&, const Embedding<D>&);                                                                  \
+  template Levels<D> find_levels<D>(const Grid&, const std::array<RowField, D>&, const std::vector<Body<D>>&, const Levels<D>*);                     \
+  template LevelCell<D> level_cell<D>(const Grid&, const std::array<RowField, D>&, const Levels<D>&, const std::array<int, 3>&);                     \
+  template void find_cells<D>(const Block<D>&, const std::array<RowField, D>&, const Levels<D>&, std::vector<int>&, std::vector<CutCell<D>>&);       \
+  template void prepare_embedding<D>(Scene<D>&, Embedding<D>&);                                                                                      \
+  template void update_cells<D>(Scene<D>&, Embedding<D>&);                                                                                           \
+  template void embedded_volumes<D>(Scene<D>&, Embedding<D>&);
+BALLAST_INSTANTIATE(2)
+BALLAST_INSTANTIATE(3)
+#undef BALLAST_INSTANTIATE
+
+} // namespace ballast

@@ -1,0 +1,145 @@
+// Embedding: stacks of layers inside a block whose mesh stays behind (eulerian, follow, relax), as bodies in the way of what it holds.
+//
+// The block's own step and remap go on as everywhere. What a body takes of a cell is left out of the cell's volume: Block::volume of a
+// cut cell is its open part (ale/embed/open_part), whose gradient gives the forces on nodes and body alike. A covered cell
+// holds void that neither presses nor works. Nodes in or close to a body are tied to it where what is around them touches it:
+// their velocity along the surface's normal is the surface's, their mass in that direction is carried by the layers' nodes
+// (ale/layers/layer_load). Along the surface they are free, so it is smooth; where there is void between, they are free
+// altogether. Tying is the one inelastic event.
+//
+// A step: begin (where are the bodies, who touches) - forces of cut cells - layers move with what hangs on them - tied nodes
+// follow - volumes and work. The remap moves what crosses the openings of faces near a body by itself, before the sweeps
+// (ale/embedding_remap).
+#pragma once
+
+#include "ale/corner_force.hpp"
+#include "ale/embed/body.hpp"
+#include "ale/embed/open_part.hpp"
+#include "ale/layers/layers.hpp"
+
+#include <vector>
+
+namespace ballast {
+
+template <int Dim> struct Scene;
+struct DtLimit;
+
+/// A node near a body.
+template <int Dim> struct NodeFoot {
+  BodyFoot<Dim> foot;
+  int stack = 0;
+  int row = 0, index = 0; ///< the node
+  bool tied = false;
+};
+
+/// Levels of a mesh's nodes, wherever they are.
+template <int Dim> struct Levels {
+  RowField level;             ///< m; of nodes out of reach of any body only the sign means something
+  std::vector<int> foot_of;   ///< by node: where in `feet`, or -1
+  std::vector<NodeFoot<Dim>> feet;
+};
+
+template <int Dim> struct CutCell {
+  std::array<int, 3> cell = {0, 0, 0};
+  int row = 0;         ///< cell row
+  double whole = 0;    ///< m3, with what the body takes
+  double width = 0;    ///< m: least edge
+  double viscosity = 0; ///< Pa, of the open part
+  bool touches = false; ///< presses on the body or is about to
+};
+
+/// What pressure and deviator of a cut cell do in a step.
+template <int Dim> struct CutForce {
+  std::array<std::array<double, Dim>, 1 << Dim> corner = {}; ///< N
+  std::array<double, 1 << Dim> push = {}; ///< N: on the body at a corner's foot, against its normal
+  OpenPart<Dim> half;                     ///< at the half step
+  double compression = 0;                 ///< up to it
+};
+
+/// Kinds of cells: from 0 on the number of a cut cell.
+inline constexpr int open_cell = -1, covered_cell = -2;
+
+template <int Dim> struct Embedding {
+  int block = 0;
+  double least_thickness = 0; ///< m: what a body must have (ale/embed/body)
+
+  Levels<Dim> now;           ///< at the block's positions
+  std::vector<int> kind;     ///< by cell
+  std::vector<CutCell<Dim>> cut;
+
+  std::array<std::vector<char>, Dim> closed; ///< faces, at the cell above, that the remap's sweeps leave alone
+  double least_width = 0;    ///< m: shortest edge of a cut cell
+
+  std::vector<CutForce<Dim>> force; ///< by cut cell
+  // Of the step, by stack: where its nodes were at its start, kinetic energy of the loaded ones before the load.
+  std::vector<std::array<std::vector<double>, Dim>> start;
+  std::vector<double> kinetic;
+
+  std::size_t cell_at(const Grid& g, int r, int i) const { return static_cast<std::size_t>(r * g.cell_pitch() + i + g.ghost[0]); }
+  int kind_of(const Grid& g, int r, int i) const { return kind[cell_at(g, r, i)]; }
+};
+
+/// Where node (r, i) stands in a dense array of nodes.
+inline std::size_t node_at(const Grid& g, int r, int i) { return static_cast<std::size_t>(r * g.node_pitch() + i + g.ghost[0]); }
+
+/// Corner p of a cell in the order of the corner forces, as (di, dj, dk).
+template <int Dim> std::array<int, 3> corner_step(int p) {
+  const int low = p & 3;
+  return {low == 1 || low == 2 ? 1 : 0, low > 1 ? 1 : 0, Dim == 3 ? p >> 2 : 0};
+}
+
+/// Levels of all nodes at `position`; `before`: signs of nodes out of reach are as there, null: found anew.
+template <int Dim>
+Levels<Dim> find_levels(const Grid& grid, const std::array<RowField, Dim>& position, const std::vector<Body<Dim>>& bodies, const Levels<Dim>* before);
+
+/// The bodies as the stacks stand.
+template <int Dim> std::vector<Body<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e);
+
+/// Corner positions and levels of a cell.
+template <int Dim> LevelCell<Dim> level_cell(const Grid& grid, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, const std::array<int, 3>& cell);
+
+/// Kinds and cut cells from levels.
+template <int Dim> void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut);
+
+/// Makes the block's cells hold what fits beside the bodies: once, at the start. Void gives way first.
+template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e);
+
+/// Start of a step: levels, cut cells; void takes the room of elements that have gone.
+template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e);
+
+/// After it: what touches, which nodes are tied; tied ones take on the surface's normal velocity, an impact that keeps momentum.
+template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e);
+
+/// Strain rates of cut cells as of whole ones, for the viscosity of their neighbours; after the block's rates.
+template <int Dim> void embedded_rates(const Embedding<Dim>& e, Block<Dim>& b);
+
+/// Viscosity of cut cells, and the step they allow.
+template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtLimit& limit);
+
+/// Forces of all cut cells for a step of dt.
+template <int Dim> void cut_forces(const Scene<Dim>& scene, Embedding<Dim>& e, double dt);
+
+/// Corner forces, and work, of the row's cut and covered cells, in place of what the row's kernels made of them.
+template <int Dim> void override_forces(const Scene<Dim>& scene, const Embedding<Dim>& e, int j, int k, const CornerRows<Dim>& out);
+template <int Dim> void override_work(const Scene<Dim>& scene, const Embedding<Dim>& e, int j, int k, double dt, const WorkRows<Dim>& out);
+
+/// Puts on the layers what the block's forces (in next_velocity) and tied nodes are to them; the layers' step comes next.
+template <int Dim> void load_layers(Scene<Dim>& scene, Embedding<Dim>& e, double dt);
+
+/// After it: tied nodes follow, the load comes off, energy that changed hands is booked.
+template <int Dim> void follow_layers(Scene<Dim>& scene, Embedding<Dim>& e, double dt);
+
+/// After the layers have moved: next_volume of cut cells.
+template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e);
+
+/// Along a foot's normal: its speed (m/s), its way in this step (m).
+template <int Dim> double surface_speed(const Scene<Dim>& scene, const NodeFoot<Dim>& f);
+template <int Dim> double surface_way(const Scene<Dim>& scene, const Embedding<Dim>& e, const NodeFoot<Dim>& f);
+
+/// Relative rate at which a cut cell's open part closes, 1/s.
+template <int Dim> double closing_rate(const Scene<Dim>& scene, const Embedding<Dim>& e, const CutCell<Dim>& c);
+
+/// The block's embedding in the scene, or null.
+template <int Dim> Embedding<Dim>* embedding_of(Scene<Dim>& scene, const Block<Dim>& b);
+
+} // namespace ballast

@@ -1,0 +1,16 @@
+// Remap beside bodies inside a block, around remap/.
+#pragma once
+
+#include "ale/scene.hpp"
+#include "remap/mesh.hpp"
+
+namespace ballast {
+
+/// What crosses faces of cells that bodies cut or cover, before or after; closes those faces to the sweeps. The block's positions are
+/// those of the step's end, `order` that of the sweeps.
+template <int Dim> void remap_embedded(Scene<Dim>& scene, Embedding<Dim>& e, Block<Dim>& block, remap::Mesh<Dim>& mesh, const remap::Settings& settings, long order);
+
+/// After the sweeps: levels and cut cells on the target mesh, whose volumes are open parts.
+template <int Dim> void restore_open_volumes(Scene<Dim>& scene, Embedding<Dim>& e, Block<Dim>& block);
+
+} // namespace ballast

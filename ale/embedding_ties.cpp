@@ -1,0 +1,280 @@
+// What touches a body and how they move together.
+#include "ale/embedding.hpp"
+#include "ale/scene.hpp"
+
+#include "ale/layers/layer_account.hpp"
+#include "ale/layers/layer_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ballast {
+
+namespace {
+
+constexpr double no_void = 1e-9;     ///< of a cell's open part: less is none
+constexpr double tied_within = 0.5;  ///< of a cell's edge: an open node that close to a body is tied
+
+/// What a cell around a node says about its tie.
+enum class Say { nothing, free, tied };
+
+template <int Dim> bool has_mass(const Block<Dim>& b, int r, int i) { return b.density.row(r)[i] > 0; }
+
+template <int Dim> bool has_void(const Block<Dim>& b, int r, int i) { return b.materials.back().store.row(field::fraction, r)[i] > no_void; }
+
+template <int Dim> void find_touching(Scene<Dim>& scene, Embedding<Dim>& e, const Block<Dim>& b) {
+  for (CutCell<Dim>& c : e.cut) {
+    const int i = c.cell[0];
+    c.touches = has_mass(b, c.row, i) && !has_void(b, c.row, i) && (b.pressure.row(c.row)[i] + b.reference_pressure > 0 || closing_rate(scene, e, c) > 0);
+  }
+}
+
+/// A node is tied if it lies in the body or close to it and something there touches the body; an open one only if nothing around
+/// it has void.
+template <int Dim> bool is_tied(const Embedding<Dim>& e, const Block<Dim>& b, const NodeFoot<Dim>& f, const std::array<int, 3>& node) {
+  const Grid& g = b.grid;
+  bool touches = false;
+  const bool covered = !(f.foot.level > 0);
+  for (int p = 0; p < (1 << Dim); ++p) {
+    const auto step = corner_step<Dim>(p);
+    const std::array<int, 3> cell = {node[0] - step[0], node[1] - step[1], node[2] - step[2]};
+    bool in = true;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      in = in && cell[d] >= 0 && cell[d] < g.cells[d];
+    }
+    if (!in) {
+      continue;
+    }
+    const int r = g.cell_row(cell[1], cell[2]), kind = e.kind_of(g, r, cell[0]);
+    if (kind >= 0) {
+      const CutCell<Dim>& c = e.cut[static_cast<std::size_t>(kind)];
+      touches = touches || c.touches;
+      if (!covered && (!c.touches || f.foot.level > tied_within * c.width)) {
+        return false;
+      }
+    } else if (kind == open_cell && !covered && (has_void(b, r, cell[0]) || !has_mass(b, r, cell[0]))) {
+      return false;
+    }
+  }
+  return touches;
+}
+
+/// No normal of a node on a wall points through it.
+template <int Dim> void keep_to_walls(const Block<Dim>& b, const std::array<int, 3>& node, std::array<double, Dim>& normal) {
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const int at = side == 0 ? 0 : b.grid.cells[static_cast<std::size_t>(axis)], component = b.boundary.normal_of(axis, side);
+      if (node[static_cast<std::size_t>(axis)] == at && component >= 0 && b.boundary.fixes_normal_velocity(axis, side)) {
+        normal[static_cast<std::size_t>(component)] = 0;
+      }
+    }
+  }
+  double square = 0;
+  for (const double n : normal) {
+    square += n * n;
+  }
+  for (double& n : normal) {
+    n = square > 0 ? n / std::sqrt(square) : 0.0;
+  }
+}
+
+template <int Dim> std::array<int, 3> node_of(const Grid& g, int row, int index) {
+  const int per = g.node_rows_per_plane(), k = row / per - (Dim == 3 ? g.ghost[2] : 0), j = row % per - g.ghost[1];
+  return {index, j, k};
+}
+
+/// The stack's nodes that carry a foot.
+template <int Dim> void collect_nodes(Scene<Dim>& scene, const Embedding<Dim>& e) {
+  std::vector<std::vector<std::size_t>> nodes(scene.layers.size());
+  for (const NodeFoot<Dim>& f : e.now.feet) {
+    for (const std::size_t n : f.foot.node) {
+      nodes[static_cast<std::size_t>(f.stack)].push_back(n);
+    }
+  }
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    std::sort(nodes[s].begin(), nodes[s].end());
+    nodes[s].erase(std::unique(nodes[s].begin(), nodes[s].end()), nodes[s].end());
+    LayerLoad<Dim>& load = scene.layers[s].load;
+    load.node = nodes[s];
+    load.force.assign(nodes[s].size(), LayerLoad<Dim>::Vector::Zero());
+    load.added.assign(nodes[s].size(), LayerLoad<Dim>::Matrix::Zero());
+    load.own.clear();
+  }
+}
+
+/// Calls body(place in the load's lists, weight) for the nodes of a foot.
+template <int Dim, class Body> void for_foot(const LayerLoad<Dim>& load, const BodyFoot<Dim>& f, Body&& body) {
+  for (std::size_t q = 0; q < f.node.size(); ++q) {
+    if (f.weight[q] != 0) {
+      body(load.index_of(f.node[q]), f.weight[q]);
+    }
+  }
+}
+
+template <int Dim> typename LayerLoad<Dim>::Vector vector_of(const std::array<double, Dim>& a) { return typename LayerLoad<Dim>::Vector(a.data()); }
+
+template <int Dim> double speed_along(const std::array<RowField, Dim>& velocity, const NodeFoot<Dim>& f) {
+  double speed = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    speed += velocity[d].row(f.row)[f.index] * f.foot.normal[d];
+  }
+  return speed;
+}
+
+template <int Dim> void add_along(std::array<RowField, Dim>& field, const NodeFoot<Dim>& f, double amount) {
+  for (std::size_t d = 0; d < Dim; ++d) {
+    field[d].row(f.row)[f.index] += amount * f.foot.normal[d];
+  }
+}
+
+} // namespace
+
+template <int Dim> Embedding<Dim>* embedding_of(Scene<Dim>& scene, const Block<Dim>& b) {
+  for (Embedding<Dim>& e : scene.embedded) {
+    if (&scene.blocks[static_cast<std::size_t>(e.block)] == &b) {
+      return &e;
+    }
+  }
+  return nullptr;
+}
+
+template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e) {
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  find_touching(scene, e, b);
+  collect_nodes(scene, e);
+  e.least_width = std::numeric_limits<double>::infinity();
+  for (const CutCell<Dim>& c : e.cut) {
+    e.least_width = std::min(e.least_width, c.width);
+  }
+  e.start.clear();
+  e.kinetic.clear();
+  std::vector<std::vector<typename LayerLoad<Dim>::Vector>> impulse;
+  for (const Layers<Dim>& l : scene.layers) {
+    e.start.push_back(l.stack.position);
+    e.kinetic.push_back(kinetic_of(l.stack, l.load));
+    impulse.emplace_back(l.load.node.size(), LayerLoad<Dim>::Vector::Zero());
+  }
+  for (NodeFoot<Dim>& f : e.now.feet) {
+    const std::array<int, 3> node = node_of<Dim>(b.grid, f.row, f.index);
+    keep_to_walls<Dim>(b, node, f.foot.normal);
+    const double mass = b.node_mass.row(f.row)[f.index];
+    f.tied = is_tied(e, b, f, node);
+    if (!f.tied || !(mass > 0)) {
+      continue;
+    }
+    const auto s = static_cast<std::size_t>(f.stack);
+    const auto n = vector_of<Dim>(f.foot.normal);
+    const double excess = speed_along<Dim>(b.velocity, f) - surface_speed(scene, f);
+    for_foot(scene.layers[s].load, f.foot, [&](std::size_t at, double w) {
+      scene.layers[s].load.added[at] += w * mass * n * n.transpose();
+      impulse[s][at] += w * mass * excess * n;
+    });
+  }
+  for (std::size_t s = 0; s < scene.layers.size(); ++s) {
+    Layers<Dim>& l = scene.layers[s];
+    const std::vector<unsigned char> held = held_nodes(l.stack);
+    for (std::size_t at = 0; at < l.load.node.size(); ++at) {
+      const std::size_t n = l.load.node[at];
+      const unsigned bits = held[n % held.size()];
+      const auto change = pushed<Dim>(l.stack.mass[n], l.load.added[at], impulse[s][at], bits);
+      for (int d = 0; d < Dim; ++d) {
+        l.stack.velocity[static_cast<std::size_t>(d)][n] += change[d];
+        l.ledger.edge_impulse[static_cast<std::size_t>(d)] -= (bits >> d & 1) != 0 ? impulse[s][at][d] : 0.0;
+      }
+    }
+  }
+  for (const NodeFoot<Dim>& f : e.now.feet) {
+    const double mass = b.node_mass.row(f.row)[f.index], now = speed_along<Dim>(b.velocity, f), then = surface_speed(scene, f);
+    if (f.tied && mass > 0) {
+      scene.ledger.embedded_given += 0.5 * mass * (now * now - then * then);
+      add_along<Dim>(b.velocity, f, then - now);
+    } else if (!(f.foot.level > 0) && !(mass > 0)) { // nothing hangs on it: it goes along
+      for (std::size_t d = 0; d < Dim; ++d) {
+        b.velocity[d].row(f.row)[f.index] = 0;
+      }
+      add_along<Dim>(b.velocity, f, then);
+    }
+  }
+}
+
+template <int Dim> void load_layers(Scene<Dim>& scene, Embedding<Dim>& e, double dt) {
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  for (const NodeFoot<Dim>& f : e.now.feet) {
+    const double mass = b.node_mass.row(f.row)[f.index];
+    if (!f.tied || !(mass > 0)) {
+      continue;
+    }
+    const double force = mass * (speed_along<Dim>(b.next_velocity, f) - speed_along<Dim>(b.velocity, f)) / dt;
+    LayerLoad<Dim>& load = scene.layers[static_cast<std::size_t>(f.stack)].load;
+    for_foot(load, f.foot, [&](std::size_t at, double w) { load.force[at] += w * force * vector_of<Dim>(f.foot.normal); });
+  }
+  for (std::size_t at_cut = 0; at_cut < e.cut.size(); ++at_cut) {
+    const CutCell<Dim>& c = e.cut[at_cut];
+    const CutForce<Dim>& cf = e.force[at_cut];
+    for (int p = 0; p < (1 << Dim); ++p) {
+      const auto step = corner_step<Dim>(p);
+      const int at = e.now.foot_of[node_at(b.grid, b.grid.node_row(c.cell[1] + step[1], c.cell[2] + step[2]), c.cell[0] + step[0])];
+      const double push = cf.push[static_cast<std::size_t>(p)];
+      if (at < 0 || push == 0) {
+        continue;
+      }
+      const NodeFoot<Dim>& f = e.now.feet[static_cast<std::size_t>(at)];
+      LayerLoad<Dim>& load = scene.layers[static_cast<std::size_t>(f.stack)].load;
+      for_foot(load, f.foot, [&](std::size_t q, double w) { load.force[q] -= w * push * vector_of<Dim>(f.foot.normal); });
+    }
+  }
+  for (std::size_t s = 0; s < scene.layers.size(); ++s) {
+    Layers<Dim>& l = scene.layers[s];
+    put_on(l.stack, l.load);
+    l.ledger.load_work += kinetic_of(l.stack, l.load) - e.kinetic[s];
+  }
+}
+
+template <int Dim> void follow_layers(Scene<Dim>& scene, Embedding<Dim>& e, double dt) {
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  for (Layers<Dim>& l : scene.layers) {
+    const double loaded = kinetic_of(l.stack, l.load);
+    take_off(l.stack, l.load);
+    l.ledger.load_work += kinetic_of(l.stack, l.load) - loaded;
+  }
+  double gained = 0; // by the block, of tied nodes and at the surface
+  for (const NodeFoot<Dim>& f : e.now.feet) {
+    const double mass = b.node_mass.row(f.row)[f.index];
+    const double then = surface_speed(scene, f);
+    if (f.tied && mass > 0) {
+      const double old = speed_along<Dim>(b.velocity, f), unbound = speed_along<Dim>(b.next_velocity, f);
+      gained += 0.5 * mass * (then * then - old * old) - 0.5 * mass * (unbound - old) * (old + then);
+      add_along<Dim>(b.next_velocity, f, then - unbound);
+      add_along<Dim>(b.next_position, f, 0.5 * dt * (then - unbound));
+    } else if (!(f.foot.level > 0) && !(mass > 0)) {
+      for (std::size_t d = 0; d < Dim; ++d) {
+        b.next_velocity[d].row(f.row)[f.index] = then * f.foot.normal[d];
+        b.next_position[d].row(f.row)[f.index] = b.position[d].row(f.row)[f.index] + dt * then * f.foot.normal[d];
+      }
+    }
+  }
+  for (std::size_t at_cut = 0; at_cut < e.cut.size(); ++at_cut) {
+    const CutCell<Dim>& c = e.cut[at_cut];
+    const CutForce<Dim>& cf = e.force[at_cut];
+    for (int p = 0; p < (1 << Dim); ++p) {
+      const auto step = corner_step<Dim>(p);
+      const int at = e.now.foot_of[node_at(b.grid, b.grid.node_row(c.cell[1] + step[1], c.cell[2] + step[2]), c.cell[0] + step[0])];
+      if (at >= 0) {
+        gained += cf.push[static_cast<std::size_t>(p)] * surface_way(scene, e, e.now.feet[static_cast<std::size_t>(at)]);
+      }
+    }
+  }
+  scene.ledger.embedded_given -= gained;
+}
+
+#define BALLAST_INSTANTIATE(D)                                               \
+  template Embedding<D>* embedding_of<D>(Scene<D>&, const Block<D>&);        \
+  template void tie_nodes<D>(Scene<D>&, Embedding<D>&);                      \
+  template void load_layers<D>(Scene<D>&, Embedding<D>&, double);            \
+  template void follow_layers<D>(Scene<D>&, Embedding<D>&, double);
+BALLAST_INSTANTIATE(2)
+BALLAST_INSTANTIATE(3)
+#undef BALLAST_INSTANTIATE
+
+} // namespace ballast
