@@ -139,7 +139,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       x[d] = position[d].row(r)[i];
     }
     const double reach = reach_in_edges * edges_at<Dim>(g, position, i, j, k)[0];
-    NodeFoot<Dim> best{{}, -1, r, i, false};
+    NodeFoot<Dim> best{{}, -1, r, i, -1, false, {}, {}};
     for (std::size_t s = 0; s < bodies.size(); ++s) {
       BodyFoot<Dim> f;
       if (bodies[s].foot(x, reach, f) && (best.stack < 0 || f.level < best.foot.level)) {
@@ -152,6 +152,12 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       level = best.foot.level;
       out.foot_of[node_at(g, r, i)] = static_cast<int>(out.feet.size());
       out.feet.push_back(best);
+      BodyFoot<Dim> far;
+      const auto body = static_cast<std::size_t>(best.stack);
+      if (!(level > 0) && best.foot.side < 2 && bodies[body].foot(x, 2 * reach, far, 1 - best.foot.side)) {
+        out.feet.back().other = static_cast<int>(out.feet.size());
+        out.feet.push_back({far, best.stack, r, i, -1, false, {}, {}});
+      }
       return;
     }
     bool inside = false;
@@ -167,16 +173,45 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
   return out;
 }
 
+template <int Dim> int open_side(const Grid& g, const Levels<Dim>& levels, std::span<const std::array<int, 3>> nodes) {
+  int side = -1;
+  for (const std::array<int, 3>& n : nodes) {
+    const int r = g.node_row(n[1], n[2]), at = levels.foot_of[node_at(g, r, n[0])];
+    if (at < 0 || !(levels.level.row(r)[n[0]] > 0)) {
+      continue;
+    }
+    const int here = levels.feet[static_cast<std::size_t>(at)].foot.side;
+    if (here > 1 || (side >= 0 && here != side)) {
+      return -1;
+    }
+    side = here;
+  }
+  return side;
+}
+
+template <int Dim> double level_on(const Grid& g, const Levels<Dim>& levels, const std::array<int, 3>& n, int side) {
+  const int r = g.node_row(n[1], n[2]), at = foot_on(levels, node_at(g, r, n[0]), side);
+  return at < 0 ? levels.level.row(r)[n[0]] : levels.feet[static_cast<std::size_t>(at)].foot.level;
+}
+
 template <int Dim>
-LevelCell<Dim> level_cell(const Grid& g, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, const std::array<int, 3>& cell) {
+LevelCell<Dim> level_cell(const Grid& g, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, const std::array<int, 3>& cell, std::array<int, 1 << Dim>* feet) {
   LevelCell<Dim> out;
+  std::array<std::array<int, 3>, 1 << Dim> nodes;
   for (int p = 0; p < (1 << Dim); ++p) {
     const auto step = corner_step<Dim>(p);
-    const int r = g.node_row(cell[1] + step[1], cell[2] + step[2]), i = cell[0] + step[0];
+    nodes[static_cast<std::size_t>(p)] = {cell[0] + step[0], cell[1] + step[1], cell[2] + step[2]};
+  }
+  const int side = open_side<Dim>(g, levels, nodes);
+  for (std::size_t p = 0; p < nodes.size(); ++p) {
+    const int r = g.node_row(nodes[p][1], nodes[p][2]), i = nodes[p][0];
     for (std::size_t d = 0; d < Dim; ++d) {
-      out.x[static_cast<std::size_t>(p)][d] = position[d].row(r)[i];
+      out.x[p][d] = position[d].row(r)[i];
     }
-    out.level[static_cast<std::size_t>(p)] = levels.level.row(r)[i];
+    out.level[p] = level_on<Dim>(g, levels, nodes[p], side);
+    if (feet != nullptr) {
+      (*feet)[p] = foot_on(levels, node_at(g, r, i), side);
+    }
   }
   return out;
 }
@@ -187,7 +222,8 @@ void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, 
   kind.assign(static_cast<std::size_t>(g.cell_pitch()) * static_cast<std::size_t>(g.cell_rows()), open_cell);
   cut.clear();
   for_cells<Dim>(g, [&](int i, int j, int k) {
-    const LevelCell<Dim> c = level_cell<Dim>(g, position, levels, {i, j, k});
+    std::array<int, 1 << Dim> feet{};
+    const LevelCell<Dim> c = level_cell<Dim>(g, position, levels, {i, j, k}, &feet);
     int& what = kind[static_cast<std::size_t>(g.cell_row(j, k) * g.cell_pitch() + i + g.ghost[0])];
     if (c.open()) {
       return;
@@ -202,7 +238,7 @@ void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, 
       return;
     }
     what = static_cast<int>(cut.size());
-    cut.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false});
+    cut.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false, feet});
   });
 }
 
@@ -296,7 +332,9 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
 #define BALLAST_INSTANTIATE(D)                                                                                                                       \
   template std::vector<Body<D>> bodies_of<D>(const Scene<D>&, const Embedding<D>&);                                                                  \
   template Levels<D> find_levels<D>(const Grid&, const std::array<RowField, D>&, const std::vector<Body<D>>&, const Levels<D>*);                     \
-  template LevelCell<D> level_cell<D>(const Grid&, const std::array<RowField, D>&, const Levels<D>&, const std::array<int, 3>&);                     \
+  template LevelCell<D> level_cell<D>(const Grid&, const std::array<RowField, D>&, const Levels<D>&, const std::array<int, 3>&, std::array<int, 1 << D>*); \
+  template int open_side<D>(const Grid&, const Levels<D>&, std::span<const std::array<int, 3>>);                                                       \
+  template double level_on<D>(const Grid&, const Levels<D>&, const std::array<int, 3>&, int);                                                           \
   template void find_cells<D>(const Block<D>&, const std::array<RowField, D>&, const Levels<D>&, std::vector<int>&, std::vector<CutCell<D>>&);       \
   template void prepare_embedding<D>(Scene<D>&, Embedding<D>&);                                                                                      \
   template void update_cells<D>(Scene<D>&, Embedding<D>&);                                                                                           \

@@ -17,6 +17,7 @@
 #include "ale/embed/open_part.hpp"
 #include "ale/layers/layers.hpp"
 
+#include <span>
 #include <vector>
 
 namespace ballast {
@@ -29,7 +30,11 @@ template <int Dim> struct NodeFoot {
   BodyFoot<Dim> foot;
   int stack = 0;
   int row = 0, index = 0; ///< the node
+  int other = -1;         ///< of a covered node: where in `feet` its foot on the other side stands
   bool tied = false;
+  /// Tied: its speed along the unit vector `tie` is the dot product of `carry` with the surface's velocity. Both are the normal n; on walls
+  /// tie lies in them and carry = n / (n.tie).
+  std::array<double, Dim> tie = {}, carry = {};
 };
 
 /// Levels of a mesh's nodes, wherever they are.
@@ -46,6 +51,7 @@ template <int Dim> struct CutCell {
   double width = 0;    ///< m: least edge
   double viscosity = 0; ///< Pa, of the open part
   bool touches = false; ///< presses on the body or is about to
+  std::array<int, 1 << Dim> foot = {}; ///< of its corners, in Levels::feet, or -1
 };
 
 /// What pressure and deviator of a cut cell do in a step.
@@ -95,8 +101,24 @@ Levels<Dim> find_levels(const Grid& grid, const std::array<RowField, Dim>& posit
 /// The bodies as the stacks stand.
 template <int Dim> std::vector<Body<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e);
 
-/// Corner positions and levels of a cell.
-template <int Dim> LevelCell<Dim> level_cell(const Grid& grid, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, const std::array<int, 3>& cell);
+/// The foot that counts for a node beside what is open on `side` (0, 1; else the nearest): where in `feet`, or -1.
+template <int Dim> int foot_on(const Levels<Dim>& levels, std::size_t node, int side) {
+  const int at = levels.foot_of[node];
+  if (at < 0 || side < 0) {
+    return at;
+  }
+  const NodeFoot<Dim>& f = levels.feet[static_cast<std::size_t>(at)];
+  return f.other >= 0 && f.foot.side == 1 - side ? f.other : at;
+}
+
+/// Side of the body on which the open ones of some nodes lie; -1: both, a rim, or none near.
+template <int Dim> int open_side(const Grid& grid, const Levels<Dim>& levels, std::span<const std::array<int, 3>> nodes);
+
+/// Level of a node for what is open on `side`.
+template <int Dim> double level_on(const Grid& grid, const Levels<Dim>& levels, const std::array<int, 3>& node, int side);
+
+/// Corner positions and levels of a cell; `feet`: where in levels.feet the corners' stand, or -1.
+template <int Dim> LevelCell<Dim> level_cell(const Grid& grid, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, const std::array<int, 3>& cell, std::array<int, 1 << Dim>* feet = nullptr);
 
 /// Kinds and cut cells from levels.
 template <int Dim> void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut);
@@ -132,8 +154,8 @@ template <int Dim> void follow_layers(Scene<Dim>& scene, Embedding<Dim>& e, doub
 /// After the layers have moved: next_volume of cut cells.
 template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e);
 
-/// Along a foot's normal: its speed (m/s), its way in this step (m).
-template <int Dim> double surface_speed(const Scene<Dim>& scene, const NodeFoot<Dim>& f);
+/// Of a foot along its normal, or another direction: speed (m/s); way in this step along the normal (m).
+template <int Dim> double surface_speed(const Scene<Dim>& scene, const NodeFoot<Dim>& f, const std::array<double, Dim>& along);
 template <int Dim> double surface_way(const Scene<Dim>& scene, const Embedding<Dim>& e, const NodeFoot<Dim>& f);
 
 /// Relative rate at which a cut cell's open part closes, 1/s.

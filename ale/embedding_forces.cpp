@@ -66,9 +66,15 @@ std::array<std::array<double, Dim>, 1 << Dim> corner_velocities(const Grid& g, c
   return u;
 }
 
-template <int Dim> const NodeFoot<Dim>* foot_at(const Embedding<Dim>& e, const Grid& g, const std::array<int, 3>& cell, int p) {
+template <int Dim> const NodeFoot<Dim>* foot_at(const Embedding<Dim>& e, const CutCell<Dim>& c, int p) {
+  const int at = c.foot[static_cast<std::size_t>(p)];
+  return at < 0 ? nullptr : &e.now.feet[static_cast<std::size_t>(at)];
+}
+
+/// The foot by which a corner's node is tied.
+template <int Dim> const NodeFoot<Dim>* foot_of_node(const Embedding<Dim>& e, const Grid& g, const CutCell<Dim>& c, int p) {
   const auto step = corner_step<Dim>(p);
-  const int at = e.now.foot_of[node_at(g, g.node_row(cell[1] + step[1], cell[2] + step[2]), cell[0] + step[0])];
+  const int at = e.now.foot_of[node_at(g, g.node_row(c.cell[1] + step[1], c.cell[2] + step[2]), c.cell[0] + step[0])];
   return at < 0 ? nullptr : &e.now.feet[static_cast<std::size_t>(at)];
 }
 
@@ -82,7 +88,7 @@ template <int Dim> double dot(const std::array<double, Dim>& a, const std::array
 
 /// Rate at which a node's level grows, m/s.
 template <int Dim> double level_rate(const Scene<Dim>& scene, const NodeFoot<Dim>& f, const std::array<double, Dim>& u) {
-  return dot<Dim>(f.foot.normal, u) - surface_speed(scene, f);
+  return dot<Dim>(f.foot.normal, u) - surface_speed<Dim>(scene, f, f.foot.normal);
 }
 
 /// A cut cell's levels and positions at a half step.
@@ -94,7 +100,7 @@ template <int Dim> LevelCell<Dim> half_way(const Scene<Dim>& scene, const Embedd
     for (std::size_t d = 0; d < Dim; ++d) {
       cell.x[at][d] += half * u[at][d];
     }
-    if (const NodeFoot<Dim>* f = foot_at(e, b.grid, c.cell, p)) {
+    if (const NodeFoot<Dim>* f = foot_at(e, c, p)) {
       cell.level[at] += half * level_rate<Dim>(scene, *f, u[at]);
     }
   }
@@ -149,13 +155,13 @@ void add_deviator(const WholeCell<3>& w, const std::array<double, 6>& s, double 
 
 /// dT/dt of a cut cell, m3/s.
 template <int Dim>
-double opening_rate(const Scene<Dim>& scene, const Embedding<Dim>& e, const Grid& g, const CutCell<Dim>& c, const OpenPart<Dim>& part,
+double opening_rate(const Scene<Dim>& scene, const Embedding<Dim>& e, const CutCell<Dim>& c, const OpenPart<Dim>& part,
                     const std::array<std::array<double, Dim>, 1 << Dim>& u) {
   double rate = 0;
   for (int p = 0; p < (1 << Dim); ++p) {
     const auto at = static_cast<std::size_t>(p);
     rate += dot<Dim>(part.at_node[at], u[at]);
-    if (const NodeFoot<Dim>* f = foot_at(e, g, c.cell, p)) {
+    if (const NodeFoot<Dim>* f = foot_at(e, c, p)) {
       rate += part.at_level[at] * level_rate<Dim>(scene, *f, u[at]);
     }
   }
@@ -172,7 +178,7 @@ template <int Dim> struct BodyPushes {
   std::array<Push, (1 << Dim) * BodyFoot<Dim>::most> push = {};
   std::size_t count = 0;
 
-  void add(const NodeFoot<Dim>& f, double along) {
+  void add(const NodeFoot<Dim>& f, const std::array<double, Dim>& direction, double along) {
     for (std::size_t q = 0; q < f.foot.node.size(); ++q) {
       std::size_t at = 0;
       while (at < count && (push[at].stack != f.stack || push[at].node != f.foot.node[q])) {
@@ -182,7 +188,7 @@ template <int Dim> struct BodyPushes {
         push[count++] = {f.stack, f.foot.node[q], {}};
       }
       for (std::size_t d = 0; d < Dim; ++d) {
-        push[at].force[d] += f.foot.weight[q] * along * f.foot.normal[d];
+        push[at].force[d] += f.foot.weight[q] * along * direction[d];
       }
     }
   }
@@ -206,12 +212,12 @@ template <int Dim> struct BodyPushes {
 
 } // namespace
 
-template <int Dim> double surface_speed(const Scene<Dim>& scene, const NodeFoot<Dim>& f) {
+template <int Dim> double surface_speed(const Scene<Dim>& scene, const NodeFoot<Dim>& f, const std::array<double, Dim>& along) {
   const LayerStack<Dim>& s = scene.layers[static_cast<std::size_t>(f.stack)].stack;
   double speed = 0;
   for (std::size_t q = 0; q < f.foot.node.size(); ++q) {
     for (std::size_t d = 0; d < Dim; ++d) {
-      speed += f.foot.weight[q] * s.velocity[d][f.foot.node[q]] * f.foot.normal[d];
+      speed += f.foot.weight[q] * s.velocity[d][f.foot.node[q]] * along[d];
     }
   }
   return speed;
@@ -220,7 +226,7 @@ template <int Dim> double surface_speed(const Scene<Dim>& scene, const NodeFoot<
 template <int Dim> double closing_rate(const Scene<Dim>& scene, const Embedding<Dim>& e, const CutCell<Dim>& c) {
   const Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const OpenPart<Dim> part = open_part(level_cell<Dim>(b.grid, b.position, e.now, c.cell), b.axisymmetric);
-  return -opening_rate<Dim>(scene, e, b.grid, c, part, corner_velocities<Dim>(b.grid, b.velocity, c.cell)) / part.volume;
+  return -opening_rate<Dim>(scene, e, c, part, corner_velocities<Dim>(b.grid, b.velocity, c.cell)) / part.volume;
 }
 
 template <int Dim> static CutForce<Dim> cut_force(const Scene<Dim>& scene, const Embedding<Dim>& e, const CutCell<Dim>& c, double dt) {
@@ -236,7 +242,7 @@ template <int Dim> static CutForce<Dim> cut_force(const Scene<Dim>& scene, const
   for (int q = 0; q < (1 << Dim); ++q) {
     const auto at = static_cast<std::size_t>(q);
     out.push[at] = p * out.half.at_level[at];
-    const NodeFoot<Dim>* f = foot_at(e, b.grid, c.cell, q);
+    const NodeFoot<Dim>* f = foot_at(e, c, q);
     for (std::size_t d = 0; d < Dim; ++d) {
       out.corner[at][d] = p * out.half.at_node[at][d] + (f != nullptr ? out.push[at] * f->foot.normal[d] : 0.0);
     }
@@ -295,7 +301,7 @@ template <int Dim> void override_work(const Scene<Dim>& scene, const Embedding<D
     for (int p = 0; p < (1 << Dim); ++p) {
       const auto at = static_cast<std::size_t>(p);
       double along = 0;
-      const NodeFoot<Dim>* foot = foot_at(e, g, c.cell, p);
+      const NodeFoot<Dim>* foot = foot_at(e, c, p);
       for (std::size_t d = 0; d < Dim; ++d) {
         const double dx = 0.5 * dt * (u[at][d] + next[at][d]);
         out.swept_volume[i] += f.half.at_node[at][d] * dx;
@@ -353,7 +359,7 @@ template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtL
     }
     const auto u = corner_velocities<Dim>(g, b.velocity, c.cell);
     const OpenPart<Dim> part = open_part(level_cell<Dim>(g, b.position, e.now, c.cell), b.axisymmetric);
-    const double rate = opening_rate<Dim>(scene, e, g, c, part, u) / part.volume;
+    const double rate = opening_rate<Dim>(scene, e, c, part, u) / part.volume;
     double active = 0;
     if (rate < 0) {
       const double jump = -rate * c.width, a = quadratic * jump, lin = linear * sound * std::min(1.0, jump / (1e-7 * sound));
@@ -366,16 +372,20 @@ template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtL
       const auto at = static_cast<std::size_t>(p);
       const auto to = corner_step<Dim>(p);
       const double mass = b.node_mass.row(g.node_row(c.cell[1] + to[1], c.cell[2] + to[2]))[c.cell[0] + to[0]];
-      const NodeFoot<Dim>* f = foot_at(e, g, c.cell, p);
+      const NodeFoot<Dim>* f = foot_at(e, c, p);
       std::array<double, Dim> force = part.at_node[at];
       if (f != nullptr) {
         for (std::size_t d = 0; d < Dim; ++d) {
           force[d] += part.at_level[at] * f->foot.normal[d];
         }
-        const double along = f->tied ? dot<Dim>(force, f->foot.normal) : 0.0;
-        pushes.add(*f, along - part.at_level[at]);
-        for (std::size_t d = 0; d < Dim; ++d) {
-          force[d] -= along * f->foot.normal[d];
+        pushes.add(*f, f->foot.normal, -part.at_level[at]);
+        const NodeFoot<Dim>& own = *foot_of_node(e, g, c, p);
+        if (own.tied) {
+          const double along = dot<Dim>(force, own.tie);
+          pushes.add(own, own.carry, along);
+          for (std::size_t d = 0; d < Dim; ++d) {
+            force[d] -= along * own.tie[d];
+          }
         }
       }
       mobility += mass > 0 ? dot<Dim>(force, force) / mass : 0.0;
@@ -392,7 +402,7 @@ template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtL
     }
   }
   for (const NodeFoot<Dim>& f : e.now.feet) { // a body travels less than half a cell
-    const double speed = std::abs(surface_speed(scene, f));
+    const double speed = std::abs(surface_speed<Dim>(scene, f, f.foot.normal));
     const double width = 0.4 * e.least_width;
     if (speed * limit.dt > width) {
       limit = {width / speed, e.block, {-1, -1, -1}, -1, DtCause::volume_change};
@@ -401,7 +411,7 @@ template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtL
 }
 
 #define BALLAST_INSTANTIATE(D)                                                                                        \
-  template double surface_speed<D>(const Scene<D>&, const NodeFoot<D>&);                                              \
+  template double surface_speed<D>(const Scene<D>&, const NodeFoot<D>&, const std::array<double, D>&);                \
   template double surface_way<D>(const Scene<D>&, const Embedding<D>&, const NodeFoot<D>&);                           \
   template double closing_rate<D>(const Scene<D>&, const Embedding<D>&, const CutCell<D>&);                           \
   template void cut_forces<D>(const Scene<D>&, Embedding<D>&, double);                                                \

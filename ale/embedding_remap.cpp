@@ -214,10 +214,12 @@ private:
 
   /// Share of a face that is open (2D: of its length).
   double aperture(const Config& config, std::size_t axis, const std::array<int, 3>& above) const {
-    const RowField& level = levels_[config.at].level;
     std::array<int, 3> far = above;
     far[axis == 0 ? 1 : 0] += 1;
-    const double a = level.row(g_.node_row(above[1], above[2]))[above[0]], b = level.row(g_.node_row(far[1], far[2]))[far[0]];
+    const std::array<std::array<int, 3>, 2> node = {above, far};
+    const Levels<Dim>& levels = levels_[config.at];
+    const int side = open_side<Dim>(g_, levels, node);
+    const double a = level_on<Dim>(g_, levels, above, side), b = level_on<Dim>(g_, levels, far, side);
     if (a > 0 && b > 0) {
       return 1;
     }
@@ -608,14 +610,16 @@ template <> double EmbeddedRemap<2>::crossing(int axis, const std::array<int, 3>
   double sum = 0;
   for (std::size_t leg = 0; leg < 2; ++leg) {
     SweptFace f{};
+    int side = open_side<2>(g_, levels_[leg], node);
+    side = side >= 0 ? side : open_side<2>(g_, levels_[leg + 1], node);
     for (std::size_t q = 0; q < 2; ++q) {
       const int r = g_.node_row(node[q][1], node[q][2]), i = node[q][0];
       for (std::size_t d = 0; d < 2; ++d) {
         f.before[q][d] = path_[leg][d].row(r)[i];
         f.after[q][d] = path_[leg + 1][d].row(r)[i];
       }
-      f.level_before[q] = levels_[leg].level.row(r)[i];
-      f.level_after[q] = levels_[leg + 1].level.row(r)[i];
+      f.level_before[q] = level_on<2>(g_, levels_[leg], node[q], side);
+      f.level_after[q] = level_on<2>(g_, levels_[leg + 1], node[q], side);
     }
     sum += open_swept(f, b_.axisymmetric);
   }

@@ -60,22 +60,40 @@ template <int Dim> bool is_tied(const Embedding<Dim>& e, const Block<Dim>& b, co
   return touches;
 }
 
-/// No normal of a node on a wall points through it.
-template <int Dim> void keep_to_walls(const Block<Dim>& b, const std::array<int, 3>& node, std::array<double, Dim>& normal) {
+constexpr double least_along_wall = 0.3; ///< of the normal: below it a node on a wall is free
+
+/// How a node is tied; false: the wall it lies on faces the body.
+template <int Dim> bool find_tie(const Block<Dim>& b, const std::array<int, 3>& node, NodeFoot<Dim>& f) {
+  f.tie = f.carry = f.foot.normal;
+  bool wall = false;
   for (int axis = 0; axis < Dim; ++axis) {
     for (int side = 0; side < 2; ++side) {
       const int at = side == 0 ? 0 : b.grid.cells[static_cast<std::size_t>(axis)], component = b.boundary.normal_of(axis, side);
       if (node[static_cast<std::size_t>(axis)] == at && component >= 0 && b.boundary.fixes_normal_velocity(axis, side)) {
-        normal[static_cast<std::size_t>(component)] = 0;
+        f.tie[static_cast<std::size_t>(component)] = 0;
+        wall = true;
       }
     }
   }
   double square = 0;
-  for (const double n : normal) {
+  for (const double n : f.tie) {
     square += n * n;
   }
-  for (double& n : normal) {
-    n = square > 0 ? n / std::sqrt(square) : 0.0;
+  if (!wall) {
+    return true;
+  }
+  const double length = std::sqrt(square);
+  for (std::size_t d = 0; d < Dim; ++d) {
+    f.tie[d] = length > 0 ? f.tie[d] / length : 0.0;
+    f.carry[d] = length > 0 ? f.foot.normal[d] / length : 0.0; // n.tie = length
+  }
+  return length > least_along_wall;
+}
+
+/// What a wall gives to a body through a node that it holds.
+template <int Dim> void book_wall(Ledger& ledger, const NodeFoot<Dim>& f, double impulse) {
+  for (std::size_t d = 0; d < Dim; ++d) {
+    ledger.momentum_out[d] -= impulse * (f.carry[d] - f.tie[d]);
   }
 }
 
@@ -117,16 +135,19 @@ template <int Dim> typename LayerLoad<Dim>::Vector vector_of(const std::array<do
 template <int Dim> double speed_along(const std::array<RowField, Dim>& velocity, const NodeFoot<Dim>& f) {
   double speed = 0;
   for (std::size_t d = 0; d < Dim; ++d) {
-    speed += velocity[d].row(f.row)[f.index] * f.foot.normal[d];
+    speed += velocity[d].row(f.row)[f.index] * f.tie[d];
   }
   return speed;
 }
 
 template <int Dim> void add_along(std::array<RowField, Dim>& field, const NodeFoot<Dim>& f, double amount) {
   for (std::size_t d = 0; d < Dim; ++d) {
-    field[d].row(f.row)[f.index] += amount * f.foot.normal[d];
+    field[d].row(f.row)[f.index] += amount * f.tie[d];
   }
 }
+
+/// Is it the foot of its node, not that on the other side?
+template <int Dim> bool is_own(const Embedding<Dim>& e, const Grid& g, const NodeFoot<Dim>& f) { return &e.now.feet[static_cast<std::size_t>(e.now.foot_of[node_at(g, f.row, f.index)])] == &f; }
 
 } // namespace
 
@@ -156,20 +177,23 @@ template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e) {
     impulse.emplace_back(l.load.node.size(), LayerLoad<Dim>::Vector::Zero());
   }
   for (NodeFoot<Dim>& f : e.now.feet) {
+    if (!is_own(e, b.grid, f)) {
+      continue;
+    }
     const std::array<int, 3> node = node_of<Dim>(b.grid, f.row, f.index);
-    keep_to_walls<Dim>(b, node, f.foot.normal);
     const double mass = b.node_mass.row(f.row)[f.index];
-    f.tied = is_tied(e, b, f, node);
+    f.tied = find_tie(b, node, f) && is_tied(e, b, f, node);
     if (!f.tied || !(mass > 0)) {
       continue;
     }
     const auto s = static_cast<std::size_t>(f.stack);
-    const auto n = vector_of<Dim>(f.foot.normal);
-    const double excess = speed_along<Dim>(b.velocity, f) - surface_speed(scene, f);
+    const auto n = vector_of<Dim>(f.carry);
+    const double excess = speed_along<Dim>(b.velocity, f) - surface_speed<Dim>(scene, f, f.carry);
     for_foot(scene.layers[s].load, f.foot, [&](std::size_t at, double w) {
       scene.layers[s].load.added[at] += w * mass * n * n.transpose();
       impulse[s][at] += w * mass * excess * n;
     });
+    book_wall(scene.ledger, f, mass * excess);
   }
   for (std::size_t s = 0; s < scene.layers.size(); ++s) {
     Layers<Dim>& l = scene.layers[s];
@@ -185,11 +209,11 @@ template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e) {
     }
   }
   for (const NodeFoot<Dim>& f : e.now.feet) {
-    const double mass = b.node_mass.row(f.row)[f.index], now = speed_along<Dim>(b.velocity, f), then = surface_speed(scene, f);
+    const double mass = b.node_mass.row(f.row)[f.index], now = speed_along<Dim>(b.velocity, f), then = surface_speed<Dim>(scene, f, f.carry);
     if (f.tied && mass > 0) {
       scene.ledger.embedded_given += 0.5 * mass * (now * now - then * then);
       add_along<Dim>(b.velocity, f, then - now);
-    } else if (!(f.foot.level > 0) && !(mass > 0)) { // nothing hangs on it: it goes along
+    } else if (!(f.foot.level > 0) && !(mass > 0) && is_own(e, b.grid, f)) { // nothing hangs on it: it goes along
       for (std::size_t d = 0; d < Dim; ++d) {
         b.velocity[d].row(f.row)[f.index] = 0;
       }
@@ -207,14 +231,14 @@ template <int Dim> void load_layers(Scene<Dim>& scene, Embedding<Dim>& e, double
     }
     const double force = mass * (speed_along<Dim>(b.next_velocity, f) - speed_along<Dim>(b.velocity, f)) / dt;
     LayerLoad<Dim>& load = scene.layers[static_cast<std::size_t>(f.stack)].load;
-    for_foot(load, f.foot, [&](std::size_t at, double w) { load.force[at] += w * force * vector_of<Dim>(f.foot.normal); });
+    for_foot(load, f.foot, [&](std::size_t at, double w) { load.force[at] += w * force * vector_of<Dim>(f.carry); });
+    book_wall(scene.ledger, f, force * dt);
   }
   for (std::size_t at_cut = 0; at_cut < e.cut.size(); ++at_cut) {
     const CutCell<Dim>& c = e.cut[at_cut];
     const CutForce<Dim>& cf = e.force[at_cut];
     for (int p = 0; p < (1 << Dim); ++p) {
-      const auto step = corner_step<Dim>(p);
-      const int at = e.now.foot_of[node_at(b.grid, b.grid.node_row(c.cell[1] + step[1], c.cell[2] + step[2]), c.cell[0] + step[0])];
+      const int at = c.foot[static_cast<std::size_t>(p)];
       const double push = cf.push[static_cast<std::size_t>(p)];
       if (at < 0 || push == 0) {
         continue;
@@ -241,16 +265,16 @@ template <int Dim> void follow_layers(Scene<Dim>& scene, Embedding<Dim>& e, doub
   double gained = 0; // by the block, of tied nodes and at the surface
   for (const NodeFoot<Dim>& f : e.now.feet) {
     const double mass = b.node_mass.row(f.row)[f.index];
-    const double then = surface_speed(scene, f);
+    const double then = surface_speed<Dim>(scene, f, f.carry);
     if (f.tied && mass > 0) {
       const double old = speed_along<Dim>(b.velocity, f), unbound = speed_along<Dim>(b.next_velocity, f);
       gained += 0.5 * mass * (then * then - old * old) - 0.5 * mass * (unbound - old) * (old + then);
       add_along<Dim>(b.next_velocity, f, then - unbound);
       add_along<Dim>(b.next_position, f, 0.5 * dt * (then - unbound));
-    } else if (!(f.foot.level > 0) && !(mass > 0)) {
+    } else if (!(f.foot.level > 0) && !(mass > 0) && is_own(e, b.grid, f)) {
       for (std::size_t d = 0; d < Dim; ++d) {
-        b.next_velocity[d].row(f.row)[f.index] = then * f.foot.normal[d];
-        b.next_position[d].row(f.row)[f.index] = b.position[d].row(f.row)[f.index] + dt * then * f.foot.normal[d];
+        b.next_velocity[d].row(f.row)[f.index] = then * f.tie[d];
+        b.next_position[d].row(f.row)[f.index] = b.position[d].row(f.row)[f.index] + dt * then * f.tie[d];
       }
     }
   }
@@ -258,8 +282,7 @@ template <int Dim> void follow_layers(Scene<Dim>& scene, Embedding<Dim>& e, doub
     const CutCell<Dim>& c = e.cut[at_cut];
     const CutForce<Dim>& cf = e.force[at_cut];
     for (int p = 0; p < (1 << Dim); ++p) {
-      const auto step = corner_step<Dim>(p);
-      const int at = e.now.foot_of[node_at(b.grid, b.grid.node_row(c.cell[1] + step[1], c.cell[2] + step[2]), c.cell[0] + step[0])];
+      const int at = c.foot[static_cast<std::size_t>(p)];
       if (at >= 0) {
         gained += cf.push[static_cast<std::size_t>(p)] * surface_way(scene, e, e.now.feet[static_cast<std::size_t>(at)]);
       }

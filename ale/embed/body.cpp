@@ -198,7 +198,7 @@ template <int Dim> void Body<Dim>::fill_bins(double bin) {
   }
 }
 
-template <> bool Body<2>::foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out) const {
+template <> bool Body<2>::foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out, int side) const {
   if (faces_.empty()) {
     return false;
   }
@@ -227,6 +227,9 @@ template <> bool Body<2>::foot(const std::array<double, 2>& point, double reach,
       for (int q = first_[at]; q < first_[at + 1]; ++q) {
         const int f = binned_[static_cast<std::size_t>(q)];
         const Face& face = faces_[static_cast<std::size_t>(f)];
+        if (side >= 0 && face.side == 1 - side) {
+          continue;
+        }
         const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
         const auto along = minus(vb.x, va.x), from = minus(point, va.x);
         double t = dot(from, along) / dot(along, along);

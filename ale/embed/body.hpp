@@ -29,8 +29,9 @@ public:
   /// The outer faces of a stack as it stands; `bin` (m): about the distance at which points are asked for.
   Body(const LayerStack<Dim>& stack, double least_thickness, double bin);
 
-  /// The foot of a point if it is within `reach` (m) of the body's faces. Sides alike: the lower-numbered face.
-  bool foot(const std::array<double, Dim>& point, double reach, BodyFoot<Dim>& out) const;
+  /// The foot of a point if it is within `reach` (m) of the body's faces. Sides alike: the lower-numbered face. `side` 0 or 1: on that
+  /// side's faces or a rim's, however far inside.
+  bool foot(const std::array<double, Dim>& point, double reach, BodyFoot<Dim>& out, int side = -1) const;
 
   /// Is a point inside, however far from the faces?
   bool inside(const std::array<double, Dim>& point) const;
