@@ -13,6 +13,9 @@ namespace {
 
 constexpr double reach_in_edges = 2.2;   ///< of a node's longest edge: all nodes of cut cells and of their neighbours
 constexpr double least_open = 1e-10;     ///< of a cell: less is covered
+constexpr double alike = 0.1;            ///< of a root, at least, is what fills most of its sliver
+constexpr double largest_jump = 0.02;    ///< of a cell: what its room may grow beyond what its nodes and the body moved
+constexpr double keeps_of_room = 0.85;   ///< of what a cell's materials fill, at least, when a body takes their room
 
 /// Longest and shortest edge at a node, m.
 template <int Dim> std::array<double, 2> edges_at(const Grid& g, const std::array<RowField, Dim>& x, int i, int j, int k) {
@@ -37,7 +40,7 @@ template <int Dim> std::array<double, 2> edges_at(const Grid& g, const std::arra
   return {longest, shortest};
 }
 
-template <int Dim, class Body> void for_nodes(const Grid& g, Body&& body) {
+template <int Dim, class Visit> void for_nodes(const Grid& g, Visit&& body) {
   for (int k = 0; k <= (Dim == 3 ? g.cells[2] : 0); ++k) {
     for (int j = 0; j <= g.cells[1]; ++j) {
       for (int i = 0; i <= g.cells[0]; ++i) {
@@ -47,7 +50,7 @@ template <int Dim, class Body> void for_nodes(const Grid& g, Body&& body) {
   }
 }
 
-template <int Dim, class Body> void for_cells(const Grid& g, Body&& body) {
+template <int Dim, class Visit> void for_cells(const Grid& g, Visit&& body) {
   for (int k = 0; k < g.cells[2]; ++k) {
     for (int j = 0; j < g.cells[1]; ++j) {
       for (int i = 0; i < g.cells[0]; ++i) {
@@ -106,37 +109,54 @@ template <int Dim> void empty_cell(Block<Dim>& b, int r, int i) {
   gap.row(field::fraction, r)[i] = 1;
 }
 
-double whole_volume(const Block<2>& b, const std::array<RowField, 2>& x, int i, int j, int k) {
-  std::vector<double> v(static_cast<std::size_t>(b.grid.cells[0]));
-  cell_volumes(b, x, j, k, {i, i + 1}, v.data());
-  return v[static_cast<std::size_t>(i)];
+/// Corners of a cell outside bodies.
+template <int Dim> int open_corners(const Grid& g, const Levels<Dim>& levels, int i, int j, int k) {
+  int count = 0;
+  for (int q = 0; q < (1 << (Dim - 1)); ++q) {
+    const double* level = levels.level.row(g.node_row(j + (q & 1), k + (q >> 1))) + i;
+    count += (level[0] > 0 ? 1 : 0) + (level[1] > 0 ? 1 : 0);
+  }
+  return count;
 }
-double whole_volume(const Block<3>& b, const std::array<RowField, 3>& x, int i, int j, int k) {
-  std::vector<double> v(static_cast<std::size_t>(b.grid.cells[0]));
+
+template <int Dim> double whole_volume(const Block<Dim>& b, const std::array<RowField, Dim>& x, int i, int j, int k) {
+  std::vector<double> v(static_cast<std::size_t>(i + 1));
   cell_volumes(b, x, j, k, {i, i + 1}, v.data());
-  return v[static_cast<std::size_t>(i)];
+  return v.back();
 }
 
 } // namespace
 
-template <int Dim> std::vector<Body<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e) {
-  std::vector<Body<Dim>> out;
-  for (const Layers<Dim>& l : scene.layers) {
-    out.emplace_back(l.stack, e.least_thickness, e.least_thickness);
+template <int Dim> std::vector<LayerBody<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e) {
+  std::vector<LayerBody<Dim>> out;
+  for (std::size_t s = 0; s < scene.layers.size(); ++s) {
+    out.emplace_back(scene.layers[s].stack, e.alive[s], e.least_thickness[s], e.bin);
+    out.back().set_longest_reach(reach_in_edges * e.longest_edge);
   }
   return out;
 }
 
 template <int Dim>
-Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position, const std::vector<Body<Dim>>& bodies, const Levels<Dim>* before) {
+Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position, const std::vector<LayerBody<Dim>>& bodies, const Levels<Dim>* before) {
   Levels<Dim> out;
   out.level = RowField::of_nodes(g, 1.0);
   out.foot_of.assign(static_cast<std::size_t>(g.node_pitch()) * static_cast<std::size_t>(g.node_rows()), -1);
+  double longest = 0; // far from the stacks edges may be longer: there nothing is near
+  for (const LayerBody<Dim>& body : bodies) {
+    longest = std::max(longest, body.longest_reach());
+  }
   for_nodes<Dim>(g, [&](int i, int j, int k) {
     const int r = g.node_row(j, k);
     std::array<double, Dim> x{};
     for (std::size_t d = 0; d < Dim; ++d) {
       x[d] = position[d].row(r)[i];
+    }
+    bool near = false;
+    for (const LayerBody<Dim>& body : bodies) {
+      near = near || body.near(x, longest);
+    }
+    if (!near) {
+      return;
     }
     const double reach = reach_in_edges * edges_at<Dim>(g, position, i, j, k)[0];
     NodeFoot<Dim> best{{}, -1, r, i, -1, false, {}, {}};
@@ -164,7 +184,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
     if (before != nullptr) {
       inside = !(before->level.row(r)[i] > 0);
     } else {
-      for (const Body<Dim>& body : bodies) {
+      for (const LayerBody<Dim>& body : bodies) {
         inside = inside || body.inside(x);
       }
     }
@@ -222,31 +242,130 @@ void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, 
   kind.assign(static_cast<std::size_t>(g.cell_pitch()) * static_cast<std::size_t>(g.cell_rows()), open_cell);
   cut.clear();
   for_cells<Dim>(g, [&](int i, int j, int k) {
-    std::array<int, 1 << Dim> feet{};
-    const LevelCell<Dim> c = level_cell<Dim>(g, position, levels, {i, j, k}, &feet);
-    int& what = kind[static_cast<std::size_t>(g.cell_row(j, k) * g.cell_pitch() + i + g.ghost[0])];
-    if (c.open()) {
+    const int corners = open_corners<Dim>(g, levels, i, j, k);
+    if (corners == 1 << Dim) {
       return;
     }
-    if (c.covered()) {
+    int& what = kind[static_cast<std::size_t>(g.cell_row(j, k) * g.cell_pitch() + i + g.ghost[0])];
+    if (corners == 0) {
       what = covered_cell;
       return;
     }
-    const double whole = whole_volume(b, position, i, j, k);
+    std::array<int, 1 << Dim> feet{};
+    const LevelCell<Dim> c = level_cell<Dim>(g, position, levels, {i, j, k}, &feet);
+    const double whole = whole_volume<Dim>(b, position, i, j, k);
     if (!(open_volume(c, b.axisymmetric) > least_open * whole)) {
       what = covered_cell;
       return;
     }
     what = static_cast<int>(cut.size());
-    cut.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false, feet});
+    cut.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false, -1, {}, feet});
   });
+}
+
+template <int Dim> double face_opening(const Grid& g, const Levels<Dim>& levels, int axis, const std::array<int, 3>& above) {
+  const auto nodes = face_nodes<Dim>(axis, above);
+  const int side = open_side<Dim>(g, levels, nodes);
+  std::array<double, 1 << (Dim - 1)> level{};
+  for (std::size_t q = 0; q < nodes.size(); ++q) {
+    level[q] = level_on<Dim>(g, levels, nodes[q], side);
+  }
+  return open_share<Dim>(level);
+}
+
+/// A sliver's root: the neighbour behind its widest opening, weighed by its own room.
+template <int Dim> static void find_roots(const Block<Dim>& b, Embedding<Dim>& e) {
+  const Grid& g = b.grid;
+  for (CutCell<Dim>& c : e.cut) {
+    const double volume = b.volume.row(c.row)[c.cell[0]];
+    double best = 0;
+    c.root = -1;
+    std::size_t main = 0; // what fills most of the sliver
+    for (std::size_t m = 1; m < b.materials.size(); ++m) {
+      const auto f = [&](std::size_t q) { return b.materials[q].store.row(field::fraction, c.row)[c.cell[0]]; };
+      main = f(m) > f(main) ? m : main;
+    }
+    for (int axis = 0; axis < Dim && volume < sliver_share * c.whole; ++axis) {
+      for (const int side : {-1, 1}) {
+        std::array<int, 3> to = c.cell;
+        const auto a = static_cast<std::size_t>(axis);
+        to[a] += side;
+        if (to[a] < 0 || to[a] >= g.cells[a]) {
+          continue;
+        }
+        const int r = g.cell_row(to[1], to[2]);
+        const bool solid = b.materials[main].store.row(field::fraction, r)[to[0]] > alike; // else a sliver is on its own
+        const double room = e.kind_of(g, r, to[0]) == covered_cell || !solid ? 0.0 : b.volume.row(r)[to[0]];
+        const double opening = face_opening<Dim>(g, e.now, axis, side < 0 ? c.cell : to);
+        if (room > volume && opening * room > best) {
+          best = opening * room;
+          c.root = static_cast<int>(e.cell_at(g, r, to[0]));
+          c.root_cell = to;
+        }
+      }
+    }
+  }
+}
+
+template <int Dim> static void keep_alive(const Scene<Dim>& scene, Embedding<Dim>& e) {
+  e.alive.clear();
+  for (const Layers<Dim>& l : scene.layers) {
+    e.alive.push_back(l.stack.alive);
+  }
+}
+
+template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e) {
+  keep_alive(scene, e);
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), nullptr);
+  find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+}
+
+/// No cell may have open corners on both sides of a body: its thickness is a diagonal of the cells around it.
+template <int Dim> static void find_least_thickness(const Scene<Dim>& scene, const Block<Dim>& b, Embedding<Dim>& e) {
+  constexpr double spare = 1.05;
+  const Grid& g = b.grid;
+  e.bin = std::numeric_limits<double>::infinity();
+  e.least_thickness.clear();
+  for (const Layers<Dim>& l : scene.layers) {
+    const LayerStack<Dim>& s = l.stack;
+    const std::size_t count = s.node(0, 0, 1);
+    std::vector<double> least(count, 0.0);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t n = 0; n < s.node_count(); ++n) {
+      low = std::min(low, s.position[Dim - 1][n]);
+      high = std::max(high, s.position[Dim - 1][n]);
+    }
+    for_nodes<Dim>(g, [&](int i, int j, int k) {
+      const int r = g.node_row(j, k);
+      const double at = b.position[Dim - 1].row(r)[i];
+      const double edge = edges_at<Dim>(g, b.position, i, j, k)[0], slack = 2 * edge;
+      if (at < low - slack || at > high + slack) {
+        return;
+      }
+      e.bin = std::min(e.bin, 2 * edge);
+      e.longest_edge = std::max(e.longest_edge, edge);
+      for (std::size_t n = 0; n < count; ++n) {
+        double off = 0;
+        for (std::size_t d = 0; d + 1 < Dim; ++d) {
+          off = std::max(off, std::abs(b.position[d].row(r)[i] - s.position[d][n]));
+        }
+        if (off <= 1.5 * edge) {
+          least[n] = std::max(least[n], spare * std::sqrt(static_cast<double>(Dim)) * edge);
+        }
+      }
+    });
+    e.least_thickness.push_back(std::move(least));
+  }
 }
 
 template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
-  e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), nullptr);
-  find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+  if (e.least_thickness.empty()) {
+    find_least_thickness(scene, b, e);
+  }
+  find_bodies(scene, e);
   for_cells<Dim>(g, [&](int i, int j, int k) {
     const int r = g.cell_row(j, k), kind = e.kind_of(g, r, i);
     if (kind == covered_cell) {
@@ -279,7 +398,7 @@ template <int Dim> static void take_room(Block<Dim>& b, Embedding<Dim>& e) {
     double& volume = b.volume.row(r)[i];
     if (std::abs(open - volume) > 1e-12 * c.whole) {
       const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
-      volume = std::max(open, 0.5 * (volume - parts.back()));
+      volume = std::max(open, keeps_of_room * (volume - parts.back()));
       set_volumes(b, r, i, volume, parts);
     }
   }
@@ -289,6 +408,7 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
   const std::vector<int> before = e.kind;
+  keep_alive(scene, e);
   e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), &e.now);
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
   take_room(b, e);
@@ -296,7 +416,7 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
     const int r = g.cell_row(j, k);
     const std::size_t at = e.cell_at(g, r, i);
     if (e.kind[at] == open_cell && before[at] != open_cell) {
-      const double whole = whole_volume(b, b.position, i, j, k);
+      const double whole = whole_volume<Dim>(b, b.position, i, j, k);
       double& volume = b.volume.row(r)[i];
       if (std::abs(whole - volume) > 1e-12 * whole) {
         const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
@@ -305,17 +425,19 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
       }
     }
   });
+  find_roots(b, e);
 }
 
 template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
-  const Levels<Dim> next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), &e.now);
+  e.next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), &e.now);
+  const Levels<Dim>& next = e.next;
   for_cells<Dim>(g, [&](int i, int j, int k) {
-    const LevelCell<Dim> c = level_cell<Dim>(g, b.next_position, next, {i, j, k});
-    if (c.open()) {
+    if (open_corners<Dim>(g, next, i, j, k) == 1 << Dim) {
       return;
     }
+    const LevelCell<Dim> c = level_cell<Dim>(g, b.next_position, next, {i, j, k});
     const int r = g.cell_row(j, k);
     double& volume = b.next_volume.row(r)[i];
     const double open = c.covered() ? 0.0 : open_volume(c, b.axisymmetric), old = b.volume.row(r)[i];
@@ -323,19 +445,29 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
       volume = open > least_open * volume ? open : volume;
       return;
     }
-    // What a body would bury is not crushed by it: the remap hands it on.
-    const double gap = b.materials.back().store.row(field::fraction, r)[i];
-    volume = std::max(open, (gap > 0 ? 0.9 * (1 - gap) : 0.3) * old);
+    // Where a body's shape jumps (a face folds, a foot goes elsewhere) what is there neither stretches nor is crushed with it: more room
+    // becomes void in the next step, less is taken bit by bit, and what a body would bury waits for the remap to hand it on.
+    const double gap = b.materials.back().store.row(field::fraction, r)[i], held = (1 - gap) * old;
+    const int kind = e.kind_of(g, r, i);
+    double expected = old;
+    if (kind >= 0) {
+      expected += e.force[static_cast<std::size_t>(kind)].half.volume - old; // half of it, twice
+      expected += e.force[static_cast<std::size_t>(kind)].half.volume - old;
+    }
+    const double whole = std::max(volume, old);
+    volume = open > 0 ? std::clamp(open, keeps_of_room * held, std::max(expected, held) + largest_jump * whole) : old;
   });
 }
 
 #define BALLAST_INSTANTIATE(D)                                                                                                                       \
-  template std::vector<Body<D>> bodies_of<D>(const Scene<D>&, const Embedding<D>&);                                                                  \
-  template Levels<D> find_levels<D>(const Grid&, const std::array<RowField, D>&, const std::vector<Body<D>>&, const Levels<D>*);                     \
+  template std::vector<LayerBody<D>> bodies_of<D>(const Scene<D>&, const Embedding<D>&);                                                                  \
+  template Levels<D> find_levels<D>(const Grid&, const std::array<RowField, D>&, const std::vector<LayerBody<D>>&, const Levels<D>*);                     \
   template LevelCell<D> level_cell<D>(const Grid&, const std::array<RowField, D>&, const Levels<D>&, const std::array<int, 3>&, std::array<int, 1 << D>*); \
   template int open_side<D>(const Grid&, const Levels<D>&, std::span<const std::array<int, 3>>);                                                       \
   template double level_on<D>(const Grid&, const Levels<D>&, const std::array<int, 3>&, int);                                                           \
   template void find_cells<D>(const Block<D>&, const std::array<RowField, D>&, const Levels<D>&, std::vector<int>&, std::vector<CutCell<D>>&);       \
+  template double face_opening<D>(const Grid&, const Levels<D>&, int, const std::array<int, 3>&);                                                    \
+  template void find_bodies<D>(Scene<D>&, Embedding<D>&);                                                                                            \
   template void prepare_embedding<D>(Scene<D>&, Embedding<D>&);                                                                                      \
   template void update_cells<D>(Scene<D>&, Embedding<D>&);                                                                                           \
   template void embedded_volumes<D>(Scene<D>&, Embedding<D>&);

@@ -13,17 +13,15 @@
 #pragma once
 
 #include "ale/corner_force.hpp"
-#include "ale/embed/body.hpp"
+#include "ale/embed/layer_body.hpp"
 #include "ale/embed/open_part.hpp"
 #include "ale/layers/layers.hpp"
+#include "ale/scene.hpp"
 
 #include <span>
 #include <vector>
 
 namespace ballast {
-
-template <int Dim> struct Scene;
-struct DtLimit;
 
 /// A node near a body.
 template <int Dim> struct NodeFoot {
@@ -51,6 +49,8 @@ template <int Dim> struct CutCell {
   double width = 0;    ///< m: least edge
   double viscosity = 0; ///< Pa, of the open part
   bool touches = false; ///< presses on the body or is about to
+  int root = -1; ///< of a sliver: the cell whose state it shares, as row x pitch + index (Embedding::cell_at), or -1
+  std::array<int, 3> root_cell = {};
   std::array<int, 1 << Dim> foot = {}; ///< of its corners, in Levels::feet, or -1
 };
 
@@ -62,21 +62,33 @@ template <int Dim> struct CutForce {
   double compression = 0;                 ///< up to it
 };
 
+/// What a body has buried and found no way out for: it waits.
+struct Pocket {
+  std::array<int, 3> cell = {0, 0, 0};
+  double volume = 0; ///< m3
+};
+
 /// Kinds of cells: from 0 on the number of a cut cell.
 inline constexpr int open_cell = -1, covered_cell = -2;
 
 template <int Dim> struct Embedding {
   int block = 0;
-  double least_thickness = 0; ///< m: what a body must have (ale/embed/body)
+  /// m, by stack and node of its planes: what a body must have there not to slip through cells (ale/embed/layer_body).
+  std::vector<std::vector<double>> least_thickness;
+  double bin = 0, longest_edge = 0; ///< m: of the search for feet; of cells around the stacks at the start
 
   Levels<Dim> now;           ///< at the block's positions
+  Levels<Dim> next;          ///< at the end of the Lagrangian step
   std::vector<int> kind;     ///< by cell
   std::vector<CutCell<Dim>> cut;
 
+  std::vector<std::vector<char>> alive; ///< by stack: its elements at the start of the step, whose room the bodies take until its end
+  double seconds = 0;                   ///< s of the clock on the wall, this run
   std::array<std::vector<char>, Dim> closed; ///< faces, at the cell above, that the remap's sweeps leave alone
   double least_width = 0;    ///< m: shortest edge of a cut cell
 
   std::vector<CutForce<Dim>> force; ///< by cut cell
+  std::vector<Pocket> pockets;      ///< of the last remap
   // Of the step, by stack: where its nodes were at its start, kinetic energy of the loaded ones before the load.
   std::vector<std::array<std::vector<double>, Dim>> start;
   std::vector<double> kinetic;
@@ -94,12 +106,28 @@ template <int Dim> std::array<int, 3> corner_step(int p) {
   return {low == 1 || low == 2 ? 1 : 0, low > 1 ? 1 : 0, Dim == 3 ? p >> 2 : 0};
 }
 
+/// Nodes of the face below cell `above` along an axis, turning as those of remap/swept do.
+template <int Dim> std::array<std::array<int, 3>, 1 << (Dim - 1)> face_nodes(int axis, const std::array<int, 3>& above) {
+  std::array<std::array<int, 3>, 1 << (Dim - 1)> nodes;
+  nodes.fill(above);
+  if constexpr (Dim == 2) {
+    ++nodes[1][axis == 0 ? 1 : 0];
+  } else {
+    const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
+    ++nodes[1][u];
+    ++nodes[2][u];
+    ++nodes[2][v];
+    ++nodes[3][v];
+  }
+  return nodes;
+}
+
 /// Levels of all nodes at `position`; `before`: signs of nodes out of reach are as there, null: found anew.
 template <int Dim>
-Levels<Dim> find_levels(const Grid& grid, const std::array<RowField, Dim>& position, const std::vector<Body<Dim>>& bodies, const Levels<Dim>* before);
+Levels<Dim> find_levels(const Grid& grid, const std::array<RowField, Dim>& position, const std::vector<LayerBody<Dim>>& bodies, const Levels<Dim>* before);
 
 /// The bodies as the stacks stand.
-template <int Dim> std::vector<Body<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e);
+template <int Dim> std::vector<LayerBody<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e);
 
 /// The foot that counts for a node beside what is open on `side` (0, 1; else the nearest): where in `feet`, or -1.
 template <int Dim> int foot_on(const Levels<Dim>& levels, std::size_t node, int side) {
@@ -120,8 +148,17 @@ template <int Dim> double level_on(const Grid& grid, const Levels<Dim>& levels, 
 /// Corner positions and levels of a cell; `feet`: where in levels.feet the corners' stand, or -1.
 template <int Dim> LevelCell<Dim> level_cell(const Grid& grid, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, const std::array<int, 3>& cell, std::array<int, 1 << Dim>* feet = nullptr);
 
+/// Open share of the face below cell `above` along an axis (2D: of its length).
+template <int Dim> double face_opening(const Grid& grid, const Levels<Dim>& levels, int axis, const std::array<int, 3>& above);
+
+/// Cut cells that are open by less than this share of the whole are slivers: they share their state with a root.
+inline constexpr double sliver_share = 0.5;
+
 /// Kinds and cut cells from levels.
 template <int Dim> void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut);
+
+/// Levels and cells anew, from nothing but where everything is: at the start of a run and of its continuation.
+template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e);
 
 /// Makes the block's cells hold what fits beside the bodies: once, at the start. Void gives way first.
 template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e);
@@ -134,6 +171,12 @@ template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e);
 
 /// Strain rates of cut cells as of whole ones, for the viscosity of their neighbours; after the block's rates.
 template <int Dim> void embedded_rates(const Embedding<Dim>& e, Block<Dim>& b);
+
+/// Is cell i of cell row r cut and open by less than a sliver's share?
+template <int Dim> bool is_sliver(const Embedding<Dim>& e, const Block<Dim>& b, int r, int i) {
+  const int kind = e.kind_of(b.grid, r, i);
+  return kind >= 0 && b.volume.row(r)[i] < sliver_share * e.cut[static_cast<std::size_t>(kind)].whole;
+}
 
 /// Viscosity of cut cells, and the step they allow.
 template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtLimit& limit);
@@ -162,6 +205,6 @@ template <int Dim> double surface_way(const Scene<Dim>& scene, const Embedding<D
 template <int Dim> double closing_rate(const Scene<Dim>& scene, const Embedding<Dim>& e, const CutCell<Dim>& c);
 
 /// The block's embedding in the scene, or null.
-template <int Dim> Embedding<Dim>* embedding_of(Scene<Dim>& scene, const Block<Dim>& b);
+template <int Dim> Embedding<Dim>* embedding_of(const Scene<Dim>& scene, const Block<Dim>& b);
 
 } // namespace ballast

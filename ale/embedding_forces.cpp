@@ -229,6 +229,36 @@ template <int Dim> double closing_rate(const Scene<Dim>& scene, const Embedding<
   return -opening_rate<Dim>(scene, e, c, part, corner_velocities<Dim>(b.grid, b.velocity, c.cell)) / part.volume;
 }
 
+namespace {
+
+template <int Dim> bool is_sliver(const Block<Dim>& b, const CutCell<Dim>& c) { return b.volume.row(c.row)[c.cell[0]] < sliver_share * c.whole; }
+
+/// A cell's room and how much it changes, with its root's if it is a sliver.
+struct Pool {
+  double volume, change;
+};
+template <int Dim> Pool pool_of(const Scene<Dim>& scene, const Embedding<Dim>& e, const Block<Dim>& b, const CutCell<Dim>& c, double half, double then, double volume) {
+  Pool pool{volume, then - volume};
+  if (c.root >= 0) {
+    const int r = b.grid.cell_row(c.root_cell[1], c.root_cell[2]), kind = e.kind_of(b.grid, r, c.root_cell[0]);
+    CutCell<Dim> root;
+    root.cell = c.root_cell;
+    root.foot.fill(-1);
+    if (kind >= 0) {
+      root = e.cut[static_cast<std::size_t>(kind)];
+    }
+    const auto u = corner_velocities<Dim>(b.grid, b.velocity, c.root_cell);
+    const double now = b.volume.row(r)[c.root_cell[0]];
+    pool.volume += now;
+    pool.change += open_volume(half_way<Dim>(scene, e, b, root, half, u), b.axisymmetric) - now;
+  }
+  return pool;
+}
+
+} // namespace
+
+constexpr double most_growth = 1.1; ///< of a sliver's room up to the half step, with its root's pressure
+
 template <int Dim> static CutForce<Dim> cut_force(const Scene<Dim>& scene, const Embedding<Dim>& e, const CutCell<Dim>& c, double dt) {
   const Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const int i = c.cell[0];
@@ -237,8 +267,17 @@ template <int Dim> static CutForce<Dim> cut_force(const Scene<Dim>& scene, const
   CutForce<Dim> out;
   out.half = open_part(half, b.axisymmetric);
   const double volume = b.volume.row(c.row)[i];
-  out.compression = (out.half.volume - volume) / volume;
-  const double p = b.pressure.row(c.row)[i] - b.modulus.row(c.row)[i] * out.compression + c.viscosity;
+  const Pool pool = pool_of(scene, e, b, c, 0.5 * dt, out.half.volume, volume);
+  out.compression = pool.change / pool.volume;
+  if (out.half.volume > most_growth * volume) { // a sliver that opens by itself: it has no one's pressure but its own
+    out.compression = std::max(out.compression, (out.half.volume - volume) / volume);
+  }
+  // A body does not pull; beside void nothing presses, whatever balances the deviator along the void's surface.
+  const bool hollow = !(b.modulus.row(c.row)[i] > 0);
+  const double now = b.pressure.row(c.row)[i], modulus = b.modulus.row(c.row)[i];
+  const double pressed = hollow ? -b.reference_pressure : std::max(now - modulus * out.compression, -b.reference_pressure);
+  out.compression = hollow ? 0.0 : (now - pressed) / modulus; // the closure works with the pressure that acts
+  const double p = pressed + (hollow ? 0.0 : c.viscosity);
   for (int q = 0; q < (1 << Dim); ++q) {
     const auto at = static_cast<std::size_t>(q);
     out.push[at] = p * out.half.at_level[at];
@@ -247,7 +286,7 @@ template <int Dim> static CutForce<Dim> cut_force(const Scene<Dim>& scene, const
       out.corner[at][d] = p * out.half.at_node[at][d] + (f != nullptr ? out.push[at] * f->foot.normal[d] : 0.0);
     }
   }
-  if (b.any_strength()) {
+  if (b.any_strength() && !hollow && !is_sliver(b, c)) {
     const WholeCell<Dim> w = whole_cell(half, b.axisymmetric);
     add_deviator(w, half_deviator<Dim>(b, c, dt, w, u), volume / w.volume, out);
   }
@@ -298,6 +337,13 @@ template <int Dim> void override_work(const Scene<Dim>& scene, const Embedding<D
     const CutForce<Dim>& f = e.force[static_cast<std::size_t>(kind)];
     const auto u = corner_velocities<Dim>(g, b.velocity, c.cell), next = corner_velocities<Dim>(g, b.next_velocity, c.cell);
     out.compression[i] = f.compression;
+    const bool slack = is_sliver(b, c) || !(b.modulus.row(c.row)[i] > 0);
+    out.compression[i] = f.compression;
+    for (double* component : out.gradient) { // of a sliver the whole cell's strain means nothing
+      if (component != nullptr && slack) {
+        component[i] = 0;
+      }
+    }
     for (int p = 0; p < (1 << Dim); ++p) {
       const auto at = static_cast<std::size_t>(p);
       double along = 0;
@@ -359,7 +405,11 @@ template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtL
     }
     const auto u = corner_velocities<Dim>(g, b.velocity, c.cell);
     const OpenPart<Dim> part = open_part(level_cell<Dim>(g, b.position, e.now, c.cell), b.axisymmetric);
-    const double rate = opening_rate<Dim>(scene, e, c, part, u) / part.volume;
+    // A sliver closes with its root: over a thousandth of a cell's crossing time.
+    const double moment = 1e-3 * c.width / sound;
+    const Pool pool = c.root < 0 ? Pool{part.volume, opening_rate<Dim>(scene, e, c, part, u)}
+                                 : pool_of(scene, e, b, c, moment, open_volume(half_way<Dim>(scene, e, b, c, moment, u), b.axisymmetric), part.volume);
+    const double rate = pool.change / pool.volume / (c.root < 0 ? 1 : moment);
     double active = 0;
     if (rate < 0) {
       const double jump = -rate * c.width, a = quadratic * jump, lin = linear * sound * std::min(1.0, jump / (1e-7 * sound));
@@ -391,7 +441,7 @@ template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtL
       mobility += mass > 0 ? dot<Dim>(force, force) / mass : 0.0;
     }
     mobility += pushes.mobility(scene);
-    const double stiff = (density * (sound * sound + 4 * active * active)) / part.volume;
+    const double stiff = (density * (sound * sound + 4 * active * active)) / pool.volume;
     const double dt = scene.numerics.cfl * std::sqrt(2.0) / std::sqrt(stiff * mobility);
     if (dt < limit.dt) {
       limit = {dt, e.block, c.cell, b.owner_row(c.row)[i], DtCause::sound};

@@ -20,8 +20,10 @@ namespace ballast {
 
 namespace {
 
-constexpr double pooled_below = 0.5; ///< of a whole cell
-constexpr double nothing = 1e-13;    ///< of a cell at reference density: a material's trace that is dropped, with an entry
+constexpr double nothing = 1e-10;    ///< of a cell at reference density: a material's trace that is dropped, with an entry
+
+constexpr double merged_below = 0.25; ///< of a whole cell: smaller slivers hold the same mixture as their root, void and all
+constexpr double largest_stretch = 0.98; ///< of a cell's room: less than that is a void
 
 /// Everything a cell holds, extensive: by material its volume and, but for void, mass and mass x intensives.
 struct Contents {
@@ -30,7 +32,7 @@ struct Contents {
 
 template <int Dim> class EmbeddedRemap {
 public:
-  EmbeddedRemap(Scene<Dim>& scene, Embedding<Dim>& e, Block<Dim>& b, remap::Mesh<Dim>& mesh, const remap::Settings& settings, long order)
+  EmbeddedRemap(Scene<Dim>& scene, Embedding<Dim>& e, Block<Dim>& b, remap::Mesh<Dim>* mesh, const remap::Settings& settings, long order)
       : scene_(scene), e_(e), b_(b), g_(b.grid), mesh_(mesh), settings_(settings), order_(order) {
     int at = 0;
     for (const MaterialSlot& slot : b.materials) {
@@ -40,13 +42,33 @@ public:
     size_ = at;
   }
 
+  /// Between remaps: slivers and their roots come to one state where they are.
+  void pool() {
+    path_[0] = b_.position;
+    levels_[0] = e_.next;
+    find_cells<Dim>(b_, path_[0], levels_[0], lag_.kind, lag_.cut);
+    target_ = lag_;
+    find_special();
+    gather();
+    for (std::size_t c = 0; c < cells_.size(); ++c) { // as they are, but for what has no room
+      to_volume_[c] = lag_.kind[dense(cells_[c])] == covered_cell ? 0.0 : from_volume_[c];
+    }
+    find_roots(target_, to_volume_, next_root_);
+    bury();
+    equalise();
+    scatter();
+    move_momentum();
+  }
+
   void run() {
     find_levels_on_the_way();
     find_special();
     gather();
     find_roots(lag_, from_volume_, root_);
     move_through_faces();
+    settle();
     find_roots(target_, to_volume_, next_root_);
+    keep_pools();
     bury();
     equalise();
     scatter();
@@ -82,9 +104,9 @@ private:
   }
 
   void find_levels_on_the_way() {
-    const std::vector<Body<Dim>> bodies = bodies_of(scene_, e_);
+    const std::vector<LayerBody<Dim>> bodies = bodies_of(scene_, e_);
     path_[0] = b_.position;
-    levels_[0] = find_levels<Dim>(g_, path_[0], bodies, &e_.now);
+    levels_[0] = e_.next;
     for (int q = 0; q < Dim; ++q) {
       const auto next = static_cast<std::size_t>(q + 1), d = static_cast<std::size_t>(remap::sweep_axis(Dim, q, order_));
       path_[next] = path_[next - 1];
@@ -93,9 +115,7 @@ private:
     }
     find_cells<Dim>(b_, path_[0], levels_[0], lag_.kind, lag_.cut);
     find_cells<Dim>(b_, path_[Dim], levels_[Dim], target_.kind, target_.cut);
-    for (auto* side : {&lag_, &target_}) {
-      side->at = side == &lag_ ? 0 : Dim;
-    }
+    target_.at = Dim;
   }
 
   /// Cells cut or covered before or after; their neighbours take part.
@@ -212,18 +232,8 @@ private:
     transfer_.clear();
   }
 
-  /// Share of a face that is open (2D: of its length).
   double aperture(const Config& config, std::size_t axis, const std::array<int, 3>& above) const {
-    std::array<int, 3> far = above;
-    far[axis == 0 ? 1 : 0] += 1;
-    const std::array<std::array<int, 3>, 2> node = {above, far};
-    const Levels<Dim>& levels = levels_[config.at];
-    const int side = open_side<Dim>(g_, levels, node);
-    const double a = level_on<Dim>(g_, levels, above, side), b = level_on<Dim>(g_, levels, far, side);
-    if (a > 0 && b > 0) {
-      return 1;
-    }
-    return a > 0 ? a / (a - b) : b > 0 ? b / (b - a) : 0.0;
+    return face_opening<Dim>(g_, levels_[config.at], static_cast<int>(axis), above);
   }
 
   /// The neighbour behind the widest opening, weighed by its own room; chains of at most three.
@@ -233,7 +243,7 @@ private:
     for (std::size_t c = 0; c < n; ++c) {
       root[c] = static_cast<int>(c);
       const double whole = special_[dense(cells_[c])] != 0 ? whole_of(config, cells_[c]) : 0;
-      if (special_[dense(cells_[c])] == 0 || !(volume[c] < pooled_below * whole) || (volume[c] == 0 && mass_of(c) == 0 && &config == &target_)) {
+      if (special_[dense(cells_[c])] == 0 || !(volume[c] < sliver_share * whole) || (volume[c] == 0 && mass_of(c) == 0 && &config == &target_)) {
         continue;
       }
       double best = 0;
@@ -247,7 +257,7 @@ private:
           const auto q = static_cast<std::size_t>(place_[dense(to)]);
           const std::array<int, 3>& face = side < 0 ? cells_[c] : to;
           // A face open at either end of the motion joins: what is buried goes where it came from.
-          const double open = std::max(aperture(lag_, axis, face), aperture(target_, axis, face));
+          const double open = std::max({aperture(lag_, axis, face), aperture(target_, axis, face), face_opening<Dim>(g_, e_.now, static_cast<int>(axis), face)});
           const double room = special_[dense(to)] != 0 ? volume[q] : whole_of(config, to);
           if (room > volume[c] && open * room > best) {
             best = open * room;
@@ -284,7 +294,7 @@ private:
     }
     const std::array<int, 3>& cell = cells_[c];
     const int r = g_.cell_row(cell[1], cell[2]);
-    const auto parts = remap::reconstruct_cell<Dim>(g_, mesh_.materials, settings_.normal, r, cell[0]);
+    const auto parts = remap::reconstruct_cell<Dim>(g_, mesh_->materials, settings_.normal, r, cell[0]);
     out.assign(static_cast<std::size_t>(materials()), 0.0);
     if (parts.count == 1) {
       out[static_cast<std::size_t>(parts.present[0])] = volume;
@@ -373,14 +383,65 @@ private:
     }
   }
 
+  /// What crossed faces was drawn from pools: what is left in each has its pool's state, by the volumes that are left.
+  void settle() {
+    std::vector<Contents> pool;
+    std::vector<char> pooled;
+    pool_contents(root_, pool, pooled);
+    std::vector<double> before(cells_.size()), volume(cells_.size());
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      before[c] = mass_of(c);
+    }
+    for (int m = 0; m < materials(); ++m) {
+      std::fill(volume.begin(), volume.end(), 0.0);
+      for (std::size_t c = 0; c < cells_.size(); ++c) {
+        volume[static_cast<std::size_t>(root_[c])] += std::max(at(c, m, 0), 0.0);
+      }
+      for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const auto root = static_cast<std::size_t>(root_[c]);
+        if (root == c && pooled[c] == 0) {
+          continue;
+        }
+        const double share = volume[root] > 0 ? std::max(at(c, m, 0), 0.0) / volume[root] : (c == root ? 1.0 : 0.0);
+        for (int f = 0; f < fields(m); ++f) {
+          at(c, m, f) = share * pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)] + f)];
+        }
+      }
+    }
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      const double change = mass_of(c) - before[c];
+      if (root_[c] != static_cast<int>(c) && change != 0) {
+        const int root = root_[c], cell = static_cast<int>(c);
+        transfer_.push_back({change > 0 ? root : cell, change > 0 ? cell : root, std::abs(change)});
+      }
+    }
+  }
+
+  /// What was drawn from a pool is settled in one: who shared a root still does.
+  void keep_pools() {
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (next_root_[c] == static_cast<int>(c) && root_[c] != static_cast<int>(c)) {
+        const int to = next_root_[static_cast<std::size_t>(root_[c])];
+        next_root_[c] = to;
+      }
+    }
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      next_root_[c] = next_root_[static_cast<std::size_t>(next_root_[c])];
+    }
+  }
+
   /// What has no room left goes to its root; where there is none, it stays as a pocket until there is.
   void bury() {
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       const auto root = static_cast<std::size_t>(next_root_[c]);
-      if (special_[dense(cells_[c])] == 0 || to_volume_[c] > 0 || root == c) {
+      if (special_[dense(cells_[c])] == 0 || to_volume_[c] > 0) {
         continue;
       }
       const double mass = mass_of(c);
+      if (root == c) {
+        to_volume_[c] = mass > 0 ? from_volume_[c] : 0.0;
+        continue;
+      }
       for (std::size_t n = 0; n < contents_[c].x.size(); ++n) {
         contents_[root].x[n] += contents_[c].x[n];
         contents_[c].x[n] = 0;
@@ -395,12 +456,30 @@ private:
   /// Room of a cell when the pass is done, before the sweeps if they go on with it.
   double room(std::size_t c) const { return special_[dense(cells_[c])] != 0 ? to_volume_[c] : from_volume_[c] + swept_[c]; }
 
+  /// What has come together in too little room keeps most of what it had; it is pressed out in the steps to come.
+  void give_room(std::size_t root, const std::vector<std::size_t>& members) {
+    constexpr double keeps = 0.85;
+    double room_there = 0, filled = 0;
+    for (const std::size_t c : members) {
+      room_there += room(c);
+      for (int m = 0; m < materials(); ++m) {
+        filled += is_void(m) ? 0.0 : at(c, m, 0);
+      }
+    }
+    if (special_[dense(cells_[root])] != 0 && keeps * filled > room_there) {
+      to_volume_[root] += keeps * filled - room_there;
+    }
+  }
+
   void equalise() {
     std::vector<Contents> pool;
     std::vector<char> pooled;
     pool_contents(next_root_, pool, pooled);
     for (std::size_t root = 0; root < cells_.size(); ++root) {
       if (pooled[root] == 0) {
+        if (next_root_[root] == static_cast<int>(root)) {
+          give_room(root, {root});
+        }
         continue;
       }
       std::vector<std::size_t> members;
@@ -416,8 +495,10 @@ private:
             sum += at(c, m, 0);
           }
           valid = valid && std::abs(sum - room(c)) <= 0.05 * room(c);
+          valid = valid && (c == root || room(c) > merged_below * whole_of(target_, cells_[c]));
         }
       }
+      give_room(root, members);
       double held = 0;
       for (int m = 0; m < materials(); ++m) {
         held += std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
@@ -463,11 +544,15 @@ private:
       sum += is_void(q) ? 0.0 : std::max(at(c, q, 0), 0.0);
     }
     const double v = std::max(at(c, m, 0), 0.0);
-    const bool hollow = at(c, materials() - 1, 0) > 1e-9 * room(c);
-    return sum > room(c) || (!hollow && sum > 0) ? v * room(c) / sum : v;
+    const auto root = static_cast<std::size_t>(next_root_[c]);
+    const auto hollow = [&](std::size_t q) { return at(q, materials() - 1, 0) > 1e-9 * room(q); };
+    // Room that geometry has left over is filled; of a sliver all of it if what is behind it is solid.
+    const bool fills = !hollow(c) && !hollow(root) && sum > (root == c ? largest_stretch : 0.0) * room(c);
+    return sum > room(c) || fills ? v * room(c) / sum : v;
   }
 
   void scatter() {
+    e_.pockets.clear();
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       const std::array<int, 3>& cell = cells_[c];
       const int r = g_.cell_row(cell[1], cell[2]), i = cell[0];
@@ -501,6 +586,9 @@ private:
       gap.allocate(gap.tile_of(r));
       gap.row(field::fraction, r)[i] = left > 1e-13 ? left : 0.0;
       b_.volume.row(r)[i] = covered ? whole_of(target_, cell) : volume;
+      if (!covered && special_[dense(cell)] != 0 && volume != open_of(target_, cell)) {
+        e_.pockets.push_back({cell, volume});
+      }
       settle_round_off(r, i);
       compute_owner(b_, r, {i, i + 1});
     }
@@ -527,7 +615,8 @@ private:
     std::vector<std::size_t> nodes;
     std::vector<int> row, index;
     std::vector<int> of(static_cast<std::size_t>(g_.node_pitch()) * static_cast<std::size_t>(g_.node_rows()), -1);
-    std::vector<std::array<double, Dim>> momentum;
+    std::vector<std::array<double, Dim>> momentum, least, most; // of the velocities that meet at a node
+    std::vector<std::array<int, 3>> home;                      // a cell that has it as a corner
     const auto corner = [&](std::size_t c, int bits) {
       std::array<int, 3> n = cells_[c];
       for (std::size_t a = 0; a < Dim; ++a) {
@@ -544,6 +633,18 @@ private:
           p[d] = b_.node_mass.row(r)[n[0]] * b_.velocity[d].row(r)[n[0]];
         }
         momentum.push_back(p);
+        std::array<double, Dim> u{};
+        for (std::size_t d = 0; d < Dim; ++d) {
+          u[d] = b_.velocity[d].row(r)[n[0]];
+        }
+        const bool held = b_.node_mass.row(r)[n[0]] > 0; // what holds nothing has no velocity of its own
+        least.push_back(u);
+        most.push_back(u);
+        if (!held) {
+          least.back().fill(std::numeric_limits<double>::infinity());
+          most.back().fill(-std::numeric_limits<double>::infinity());
+        }
+        home.push_back(cells_[c]);
       }
       return static_cast<std::size_t>(at_node);
     };
@@ -553,9 +654,11 @@ private:
         const std::size_t a = corner(from, bits), z = corner(to, bits);
         const double leaves = t.mass * corner_share(b_, bits, cells_[from][0], cells_[from][1], cells_[from][2]);
         for (std::size_t d = 0; d < Dim; ++d) {
-          const double p = leaves * b_.velocity[d].row(row[a])[index[a]];
+          const double u = b_.velocity[d].row(row[a])[index[a]], p = leaves * u;
           momentum[a][d] -= p;
           momentum[z][d] += p;
+          least[z][d] = std::min(least[z][d], u);
+          most[z][d] = std::max(most[z][d], u);
         }
       }
     }
@@ -569,6 +672,30 @@ private:
       mass[n] = b_.node_mass.row(row[n])[index[n]];
     }
     compute_node_mass(b_, *scene_.pool);
+    // A node that more passes through than stays may be left with a speed that nothing there had: what is too much of its
+    // momentum goes to the heaviest node of a cell it belongs to.
+    for (std::size_t n = 0; n < momentum.size(); ++n) {
+      const double m = b_.node_mass.row(row[n])[index[n]];
+      std::size_t heaviest = n;
+      double weight = m;
+      for (int bits = 0; bits < (1 << Dim); ++bits) {
+        std::array<int, 3> other = home[n];
+        for (std::size_t a = 0; a < Dim; ++a) {
+          other[a] += bits >> a & 1;
+        }
+        const int r = g_.node_row(other[1], other[2]), at_node = of[node_at(g_, r, other[0])];
+        if (at_node >= 0 && b_.node_mass.row(r)[other[0]] > weight) {
+          heaviest = static_cast<std::size_t>(at_node);
+          weight = b_.node_mass.row(r)[other[0]];
+        }
+      }
+      for (std::size_t d = 0; d < Dim && heaviest != n; ++d) {
+        const double u = m > 0 ? momentum[n][d] / m : 0.0;
+        const double kept = m > 0 && least[n][d] <= most[n][d] ? m * std::clamp(u, least[n][d], most[n][d]) : 0.0;
+        momentum[heaviest][d] += momentum[n][d] - kept;
+        momentum[n][d] = kept;
+      }
+    }
     for (std::size_t n = 0; n < momentum.size(); ++n) {
       const double m = b_.node_mass.row(row[n])[index[n]];
       for (std::size_t d = 0; d < Dim; ++d) {
@@ -584,8 +711,8 @@ private:
   Embedding<Dim>& e_;
   Block<Dim>& b_;
   const Grid& g_;
-  remap::Mesh<Dim>& mesh_;
-  const remap::Settings& settings_;
+  remap::Mesh<Dim>* mesh_;
+  const remap::Settings settings_;
   long order_;
   std::vector<int> offset_;
   int size_ = 0;
@@ -603,36 +730,37 @@ private:
   std::vector<Transfer> transfer_;
 };
 
-template <> double EmbeddedRemap<2>::crossing(int axis, const std::array<int, 3>& above) const {
-  std::array<int, 3> far = above;
-  far[axis == 0 ? 1 : 0] += 1;
-  const std::array<std::array<int, 3>, 2> node = {above, far};
+template <int Dim> double EmbeddedRemap<Dim>::crossing(int axis, const std::array<int, 3>& above) const {
+  const auto nodes = face_nodes<Dim>(axis, above);
   double sum = 0;
-  for (std::size_t leg = 0; leg < 2; ++leg) {
-    SweptFace f{};
-    int side = open_side<2>(g_, levels_[leg], node);
-    side = side >= 0 ? side : open_side<2>(g_, levels_[leg + 1], node);
-    for (std::size_t q = 0; q < 2; ++q) {
-      const int r = g_.node_row(node[q][1], node[q][2]), i = node[q][0];
-      for (std::size_t d = 0; d < 2; ++d) {
+  for (std::size_t leg = 0; leg < Dim; ++leg) {
+    SweptFace<Dim> f{};
+    int side = open_side<Dim>(g_, levels_[leg], nodes);
+    side = side >= 0 ? side : open_side<Dim>(g_, levels_[leg + 1], nodes);
+    for (std::size_t q = 0; q < nodes.size(); ++q) {
+      const int r = g_.node_row(nodes[q][1], nodes[q][2]), i = nodes[q][0];
+      for (std::size_t d = 0; d < Dim; ++d) {
         f.before[q][d] = path_[leg][d].row(r)[i];
         f.after[q][d] = path_[leg + 1][d].row(r)[i];
       }
-      f.level_before[q] = level_on<2>(g_, levels_[leg], node[q], side);
-      f.level_after[q] = level_on<2>(g_, levels_[leg + 1], node[q], side);
+      f.level_before[q] = level_on<Dim>(g_, levels_[leg], nodes[q], side);
+      f.level_after[q] = level_on<Dim>(g_, levels_[leg + 1], nodes[q], side);
     }
-    sum += open_swept(f, b_.axisymmetric);
+    sum += open_swept<Dim>(f, b_.axisymmetric);
   }
-  return axis == 0 ? -sum : sum; // the face sweeps one way, what is there goes the other
+  return Dim == 2 && axis == 1 ? sum : -sum; // the face sweeps one way, what is there goes the other; 2D faces turn by axis
 }
-template <> double EmbeddedRemap<3>::crossing(int, const std::array<int, 3>&) const { return 0; }
 
 } // namespace
 
 template <int Dim> void remap_embedded(Scene<Dim>& scene, Embedding<Dim>& e, Block<Dim>& b, remap::Mesh<Dim>& mesh, const remap::Settings& settings, long order) {
-  EmbeddedRemap<Dim> pass(scene, e, b, mesh, settings, order);
+  EmbeddedRemap<Dim> pass(scene, e, b, &mesh, settings, order);
   pass.run();
   mesh.closed = &e.closed;
+}
+
+template <int Dim> void pool_embedded(Scene<Dim>& scene, Embedding<Dim>& e, Block<Dim>& b) {
+  EmbeddedRemap<Dim>(scene, e, b, nullptr, {}, 0).pool();
 }
 
 template <int Dim> void restore_open_volumes(Scene<Dim>& scene, Embedding<Dim>& e, Block<Dim>& b) {
@@ -641,10 +769,15 @@ template <int Dim> void restore_open_volumes(Scene<Dim>& scene, Embedding<Dim>& 
   for (const CutCell<Dim>& c : e.cut) {
     b.volume.row(c.row)[c.cell[0]] = open_volume(level_cell<Dim>(b.grid, b.position, e.now, c.cell), b.axisymmetric);
   }
+  for (const Pocket& p : e.pockets) {
+    b.volume.row(b.grid.cell_row(p.cell[1], p.cell[2]))[p.cell[0]] = p.volume;
+  }
 }
 
 template void remap_embedded<2>(Scene<2>&, Embedding<2>&, Block<2>&, remap::Mesh<2>&, const remap::Settings&, long);
 template void remap_embedded<3>(Scene<3>&, Embedding<3>&, Block<3>&, remap::Mesh<3>&, const remap::Settings&, long);
+template void pool_embedded<2>(Scene<2>&, Embedding<2>&, Block<2>&);
+template void pool_embedded<3>(Scene<3>&, Embedding<3>&, Block<3>&);
 template void restore_open_volumes<2>(Scene<2>&, Embedding<2>&, Block<2>&);
 template void restore_open_volumes<3>(Scene<3>&, Embedding<3>&, Block<3>&);
 

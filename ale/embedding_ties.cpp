@@ -23,10 +23,17 @@ template <int Dim> bool has_mass(const Block<Dim>& b, int r, int i) { return b.d
 
 template <int Dim> bool has_void(const Block<Dim>& b, int r, int i) { return b.materials.back().store.row(field::fraction, r)[i] > no_void; }
 
+/// Void enough to keep what is in a cut cell off the body: of a sliver a trace is less than that.
+constexpr double void_of_whole = 1e-4;
+template <int Dim> bool keeps_off(const Block<Dim>& b, const CutCell<Dim>& c) {
+  const double gap = b.materials.back().store.row(field::fraction, c.row)[c.cell[0]];
+  return gap > no_void && gap * b.volume.row(c.row)[c.cell[0]] > void_of_whole * c.whole;
+}
+
 template <int Dim> void find_touching(Scene<Dim>& scene, Embedding<Dim>& e, const Block<Dim>& b) {
   for (CutCell<Dim>& c : e.cut) {
     const int i = c.cell[0];
-    c.touches = has_mass(b, c.row, i) && !has_void(b, c.row, i) && (b.pressure.row(c.row)[i] + b.reference_pressure > 0 || closing_rate(scene, e, c) > 0);
+    c.touches = has_mass(b, c.row, i) && !keeps_off(b, c) && (b.pressure.row(c.row)[i] + b.reference_pressure > 0 || closing_rate(scene, e, c) > 0);
   }
 }
 
@@ -58,6 +65,18 @@ template <int Dim> bool is_tied(const Embedding<Dim>& e, const Block<Dim>& b, co
     }
   }
   return touches;
+}
+
+/// Does a wall hold this component of a node's velocity?
+template <int Dim> bool fixed_along(const Block<Dim>& b, const std::array<int, 3>& node, std::size_t component) {
+  bool fixed = false;
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const int at = side == 0 ? 0 : b.grid.cells[static_cast<std::size_t>(axis)];
+      fixed = fixed || (node[static_cast<std::size_t>(axis)] == at && b.boundary.fixes_normal_velocity(axis, side) && b.boundary.normal_of(axis, side) == static_cast<int>(component));
+    }
+  }
+  return fixed;
 }
 
 constexpr double least_along_wall = 0.3; ///< of the normal: below it a node on a wall is free
@@ -122,7 +141,7 @@ template <int Dim> void collect_nodes(Scene<Dim>& scene, const Embedding<Dim>& e
 }
 
 /// Calls body(place in the load's lists, weight) for the nodes of a foot.
-template <int Dim, class Body> void for_foot(const LayerLoad<Dim>& load, const BodyFoot<Dim>& f, Body&& body) {
+template <int Dim, class Visit> void for_foot(const LayerLoad<Dim>& load, const BodyFoot<Dim>& f, Visit&& body) {
   for (std::size_t q = 0; q < f.node.size(); ++q) {
     if (f.weight[q] != 0) {
       body(load.index_of(f.node[q]), f.weight[q]);
@@ -146,15 +165,56 @@ template <int Dim> void add_along(std::array<RowField, Dim>& field, const NodeFo
   }
 }
 
+/// Beside bodies a node that holds next to nothing moves as its heaviest neighbour does, an impact that keeps momentum: a wisp's
+/// pressure would else fling it.
+template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, Block<Dim>& b) {
+  constexpr double wisp = 1e-3; // of that neighbour's mass
+  const Grid& g = b.grid;
+  for (const NodeFoot<Dim>& f : e.now.feet) {
+    const std::array<int, 3> node = node_of<Dim>(g, f.row, f.index);
+    const double mass = b.node_mass.row(f.row)[f.index];
+    double most = 0;
+    std::array<int, 3> heavy = node;
+    for (int axis = 0; axis < Dim; ++axis) {
+      for (const int side : {-1, 1}) {
+        std::array<int, 3> to = node;
+        to[static_cast<std::size_t>(axis)] += side;
+        const int n = to[static_cast<std::size_t>(axis)];
+        if (n < 0 || n > g.cells[static_cast<std::size_t>(axis)]) {
+          continue;
+        }
+        const double m = b.node_mass.row(g.node_row(to[1], to[2]))[to[0]];
+        if (m > most) {
+          most = m;
+          heavy = to;
+        }
+      }
+    }
+    if (!(mass > 0) || mass > wisp * most) {
+      continue;
+    }
+    const int r = g.node_row(heavy[1], heavy[2]), i = heavy[0];
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double &u = b.velocity[d].row(f.row)[f.index], &v = b.velocity[d].row(r)[i];
+      if (fixed_along(b, node, d) || fixed_along(b, heavy, d)) {
+        continue;
+      }
+      const double both = (mass * u + most * v) / (mass + most);
+      scene.ledger.embedded_given += 0.5 * (mass * u * u + most * v * v - (mass + most) * both * both);
+      u = v = both;
+    }
+  }
+}
+
 /// Is it the foot of its node, not that on the other side?
 template <int Dim> bool is_own(const Embedding<Dim>& e, const Grid& g, const NodeFoot<Dim>& f) { return &e.now.feet[static_cast<std::size_t>(e.now.foot_of[node_at(g, f.row, f.index)])] == &f; }
 
 } // namespace
 
-template <int Dim> Embedding<Dim>* embedding_of(Scene<Dim>& scene, const Block<Dim>& b) {
-  for (Embedding<Dim>& e : scene.embedded) {
-    if (&scene.blocks[static_cast<std::size_t>(e.block)] == &b) {
-      return &e;
+template <int Dim> Embedding<Dim>* embedding_of(const Scene<Dim>& scene, const Block<Dim>& b) {
+  for (const auto& e : scene.embedded) {
+    if (&scene.blocks[static_cast<std::size_t>(e->block)] == &b) {
+      return e.get();
     }
   }
   return nullptr;
@@ -162,6 +222,7 @@ template <int Dim> Embedding<Dim>* embedding_of(Scene<Dim>& scene, const Block<D
 
 template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  join_wisps(scene, e, b);
   find_touching(scene, e, b);
   collect_nodes(scene, e);
   e.least_width = std::numeric_limits<double>::infinity();
@@ -292,7 +353,7 @@ template <int Dim> void follow_layers(Scene<Dim>& scene, Embedding<Dim>& e, doub
 }
 
 #define BALLAST_INSTANTIATE(D)                                               \
-  template Embedding<D>* embedding_of<D>(Scene<D>&, const Block<D>&);        \
+  template Embedding<D>* embedding_of<D>(const Scene<D>&, const Block<D>&);  \
   template void tie_nodes<D>(Scene<D>&, Embedding<D>&);                      \
   template void load_layers<D>(Scene<D>&, Embedding<D>&, double);            \
   template void follow_layers<D>(Scene<D>&, Embedding<D>&, double);

@@ -297,12 +297,12 @@ template <int Dim> void move_layers(Scene<Dim>& scene, const Clock& clock) {
   if (scene.layers.empty()) {
     return;
   }
-  for (Embedding<Dim>& e : scene.embedded) {
-    load_layers(scene, e, clock.dt);
+  for (const auto& e : scene.embedded) {
+    load_layers(scene, *e, clock.dt);
   }
   step_layers(scene, clock.dt);
-  for (Embedding<Dim>& e : scene.embedded) {
-    follow_layers(scene, e, clock.dt);
+  for (const auto& e : scene.embedded) {
+    follow_layers(scene, *e, clock.dt);
   }
   for (Block<Dim>& b : scene.blocks) {
     const WorstCell w = move_cells(scene, b);
@@ -311,8 +311,8 @@ template <int Dim> void move_layers(Scene<Dim>& scene, const Clock& clock) {
                                          b.name, w.cell[0], w.cell[1], w.cell[2], contents(b, w.cell), clock.time, clock.dt));
     }
   }
-  for (Embedding<Dim>& e : scene.embedded) {
-    embedded_volumes(scene, e);
+  for (const auto& e : scene.embedded) {
+    embedded_volumes(scene, *e);
   }
 }
 
@@ -326,8 +326,8 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
   for (int attempt = 0;; ++attempt) {
     WorstCell worst;
     std::size_t where = 0;
-    for (Embedding<Dim>& e : scene.embedded) {
-      cut_forces(scene, e, clock.dt);
+    for (const auto& e : scene.embedded) {
+      cut_forces(scene, *e, clock.dt);
     }
     for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
       effects[ib] = force_pass(scene, scene.blocks[ib], clock.dt);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "ale/block.hpp"
-#include "ale/embedding.hpp"
 #include "ale/layers/layers.hpp"
 #include "core/threads.hpp"
 #include "remap/normal.hpp"
@@ -78,11 +77,13 @@ struct Ledger {
   double embedded_given = 0;      ///< J that blocks gave to layers inside them; what of it did not reach them (load_work) is the loss of impacts
 };
 
+template <int Dim> struct Embedding; // ale/embedding.hpp
+
 template <int Dim> struct Scene {
   std::string title;
   std::vector<Block<Dim>> blocks;
   std::vector<Layers<Dim>> layers; ///< stacks of fabric
-  std::vector<Embedding<Dim>> embedded; ///< of the blocks that they lie in
+  std::vector<std::shared_ptr<Embedding<Dim>>> embedded; ///< of the blocks that they lie in
   Numerics numerics;
   Ledger ledger;
   std::unique_ptr<ThreadPool> pool = std::make_unique<ThreadPool>(1);

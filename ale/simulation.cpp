@@ -1,5 +1,6 @@
 #include "ale/simulation.hpp"
 
+#include "ale/embedding_remap.hpp"
 #include "ale/layer_coupling.hpp"
 #include "ale/rest.hpp"
 #include "ale/strength_update.hpp"
@@ -25,9 +26,9 @@ template <int Dim> void check_step(const Scene<Dim>& scene, const DtLimit& stabl
 } // namespace
 
 template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
-  for (Embedding<Dim>& e : scene.embedded) {
-    update_cells(scene, e);
-    tie_nodes(scene, e);
+  for (const auto& e : scene.embedded) {
+    update_cells(scene, *e);
+    tie_nodes(scene, *e);
   }
   const DtLimit stable = stable_dt(scene);
   check_step(scene, stable, clock);
@@ -37,6 +38,8 @@ template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
     const bool due = remap_due(block, clock.step, *scene.pool);
     if (due) {
       remap_block(scene, block, clock.step);
+    } else if (Embedding<Dim>* e = embedding_of(scene, block)) {
+      pool_embedded(scene, *e, block);
     }
     new_state(scene, block, due);
     if (embedding_of(scene, block) == nullptr) {
@@ -100,8 +103,8 @@ void Clock::advance() {
 }
 
 template <int Dim> void prepare(Scene<Dim>& scene) {
-  for (Embedding<Dim>& e : scene.embedded) {
-    prepare_embedding(scene, e);
+  for (const auto& e : scene.embedded) {
+    prepare_embedding(scene, *e);
   }
   for (Block<Dim>& b : scene.blocks) {
     scene.ledger.mass_out.resize(std::max(scene.ledger.mass_out.size(), b.materials.size()), 0.0);

@@ -198,6 +198,38 @@ double advance_mixed(Block<Dim>& b,
   return taken - (w.work[i] - b.reference_pressure * motion.swept_volume);
 }
 
+/// A mixed sliver beside a body (ale/embedding): its room may change many times over in a step, which no closure is made for. Void
+/// takes the change first, then all materials alike; the work goes by mass. It comes to one state with its root after the step.
+template <int Dim> double advance_sliver(Block<Dim>& b, int r, int i, const WorkRows<Dim>& w) {
+  const double volume = b.volume.row(r)[i], next = b.next_volume.row(r)[i];
+  double mass = 0, filled = 0;
+  for (const MaterialSlot& slot : b.materials) {
+    mass += slot.is_void ? 0.0 : slot.store.row(field::mass, r)[i];
+    filled += slot.is_void ? 0.0 : slot.store.row(field::fraction, r)[i] * volume;
+  }
+  const double gap = std::max(0.0, volume - filled), left = gap > 0 ? std::max(0.0, gap + next - volume) : 0.0;
+  const double scale = filled > 0 ? (next - left) / (filled * next) : 0.0, work = w.work[i] - b.reference_pressure * w.swept_volume[i];
+  double sum = 0;
+  MaterialSlot* largest = nullptr;
+  for (MaterialSlot& slot : b.materials) {
+    const double f = std::as_const(slot.store).row(field::fraction, r)[i];
+    if (f <= 0) {
+      continue;
+    }
+    double& fraction = slot.store.row(field::fraction, r)[i];
+    fraction = slot.is_void ? left / next : f * volume * scale;
+    sum += fraction;
+    largest = largest == nullptr || fraction > largest->store.row(field::fraction, r)[i] ? &slot : largest;
+    if (!slot.is_void && mass > 0) {
+      slot.store.row(field::energy, r)[i] += work / mass;
+    }
+  }
+  if (largest != nullptr) {
+    largest->store.row(field::fraction, r)[i] += 1 - sum;
+  }
+  return mass > 0 ? 0.0 : -work;
+}
+
 template <int Dim>
 void advance_pure(
     Block<Dim>& b, int r, const RowRuns::Run& run, double dt, const WorkRows<Dim>& w, int& failed) {
@@ -261,7 +293,13 @@ void advance_row(Scene<Dim>& scene,
   }
   const std::int8_t* owner = b.owner_row(r);
   auto q = static_cast<std::size_t>(std::count(owner, owner + cells.begin, mixed_cell)); // of the row's normals
+  const Embedding<Dim>* embedded = embedding_of(scene, b);
   for (const int i : buffer.runs.mixed) {
+    if (embedded != nullptr && is_sliver(*embedded, b, r, i)) {
+      ++q;
+      sums.void_work += advance_sliver(b, r, i, buffer.rows);
+      continue;
+    }
     const int before = sums.failed;
     const Eigen::Vector3d n =
         b.any_strength()

@@ -1,5 +1,6 @@
 #include "problems/build_scene.hpp"
 
+#include "ale/embedding.hpp"
 #include "ale/fill.hpp"
 #include "core/error.hpp"
 #include "problems/build_layers.hpp"
@@ -44,7 +45,8 @@ bool needs_void(const SceneSpec& spec) {
       free = free || (side.kind == BoundaryKind::free && spec.motion.remaps());
     }
   }
-  return spec.background < 0 || spall || holes || free;
+  const bool layers = !spec.layers.empty() && embeds_layers(spec.motion); // what they cover
+  return spec.background < 0 || spall || holes || free || layers;
 }
 
 /// Momentum by node while cells are filled; velocities are its mean by mass.
@@ -270,7 +272,7 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
     set_outside(spec, slots, b);
   }
   if (starts_with_void(b)) {
-    if (!spec.layers.empty()) {
+    if (!spec.layers.empty() && !embeds_layers(spec.motion)) {
       throw Error("layers: only the free sides of the mesh touch them, and it begins with void: a mesh of exactly what strikes them");
     }
     release_to_vacuum(b);
@@ -279,6 +281,9 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   scene.blocks.push_back(std::move(b));
   for (const LayersSpec& layers : spec.layers) {
     scene.layers.push_back(build_layers<Dim>(layers, spec.geometry));
+  }
+  if (!spec.layers.empty() && embeds_layers(spec.motion)) {
+    scene.embedded.push_back(std::make_shared<Embedding<Dim>>());
   }
   prepare(scene);
   return scene;

@@ -78,7 +78,7 @@ template <int Dim> std::vector<double> pack(const Layers<Dim>& l) {
   return {g.edge_work, g.contact_loss, g.friction_loss, g.eroded_energy, g.edge_impulse[0], g.edge_impulse[1], g.edge_impulse[2],
           static_cast<double>(g.eroded_elements), static_cast<double>(g.crushed), g.deepest, g.edge_loss, g.step_change, l.stack.step, l.closing,
           static_cast<double>(l.steps), static_cast<double>(l.slidelines.steps), static_cast<double>(l.slidelines.pairs.size()), static_cast<double>(l.with_blocks.size()),
-          static_cast<double>(g.turned_over), static_cast<double>(g.behind)};
+          static_cast<double>(g.turned_over), static_cast<double>(g.behind), g.load_work};
 }
 
 template <int Dim> void unpack(const std::vector<double>& v, Layers<Dim>& l) {
@@ -102,6 +102,7 @@ template <int Dim> void unpack(const std::vector<double>& v, Layers<Dim>& l) {
   l.slidelines.steps = static_cast<long>(v.at(15));
   l.slidelines.pairs.assign(static_cast<std::size_t>(v.at(16)), {});
   l.with_blocks.assign(static_cast<std::size_t>(v.at(17)), {});
+  g.load_work = v.at(20);
   g.turned_over = static_cast<long>(v.at(18));
   g.behind = static_cast<long>(v.at(19));
 }

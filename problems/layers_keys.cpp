@@ -37,6 +37,7 @@ const SectionSpec& layers() {
        {.name = "linear_q", .kind = quantity, .doc = "likewise, of density x that speed x the wave speed at rest", .range = {0, 10}, .fallback = "0.06"},
        {.name = "shortest", .kind = quantity, .doc = "of its length at rest: an edge of an element in the plane closes no further (unless contact presses on), where pressed cloth without strength would fold finer than the mesh and turn inside out; 0: no end", .range = {0, 0.9}, .fallback = "0.2"},
        {.name = "least_volume", .kind = quantity, .doc = "of that at rest: below it, in the middle of either surface, an element presses back and does not turn inside out; 0: it may", .range = {0, 0.5}, .fallback = "0.1"},
+       {.name = "erode_volume", .kind = quantity, .doc = "of that at rest: an element pressed to less, or turned inside out, is taken as torn through and erodes; 0: only rupture of both families erodes", .range = {0, 0.5}, .fallback = "0"},
        {.name = "cfl", .kind = quantity, .doc = "share of the stack's stable step; above 0.7 modes can resonate with the step", .range = {0, 1, true}, .fallback = "0.7"},
        {.name = "subcycles", .kind = special, .doc = "steps of the stack to one of the mesh: `auto`, as many as its own stable step asks, or a whole number", .fallback = "auto"},
        {.name = "yarns", .kind = choice, .doc = "axisymmetric: what lies along radii and circles: `both` is warp along radii and fill along circles; default `both`", .choices = {"both", "warp", "fill"}},

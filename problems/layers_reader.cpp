@@ -182,6 +182,7 @@ void read_methods(Context c, const Section& in, LayersSpec& out) {
   out.hourglass.viscosity = in.number("hourglass_viscosity", out.hourglass.viscosity);
   out.guard.shortest = in.number("shortest", out.guard.shortest);
   out.guard.volume = in.number("least_volume", out.guard.volume);
+  out.guard.torn = in.number("erode_volume", out.guard.torn);
   out.viscosity.quadratic = in.number("quadratic_q", out.viscosity.quadratic);
   out.viscosity.linear = in.number("linear_q", out.viscosity.linear);
   out.cfl = in.number("cfl", out.cfl);
@@ -233,6 +234,9 @@ void check_room(Context c, const Section& in, const LayersSpec& out) {
   Bounds common;
   constexpr double some = 1e-9; // of the common box: rounding
   for (const Body& body : c.scene.bodies) {
+    if (embeds_layers(c.scene.motion) && !body.moves()) {
+      continue; // it makes room
+    }
     if (body.material >= 0 && meet(mine, bounds(body.shape), c.dim(), common) && fraction(body.shape, c.scene.geometry, common.lo, common.hi) > some) {
       c.deck.fail(*in.node("front"), fmt::format("the stack, from {:g} to {:g} m, overlaps body \"{}\"", out.low(), out.high(), body.name), "a front where there is room, or another place for the body");
       return;
@@ -328,9 +332,9 @@ void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, SceneSpec& scene
   for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
     read_one({deck, book, scene}, list->items[i]);
   }
-  if (!scene.layers.empty() && deck.clean() && !sides_go_along(scene.motion)) {
+  if (!scene.layers.empty() && deck.clean() && embeds_layers(scene.motion) && scene.geometry == Geometry::three_d) {
     const DeckNode& first = list->items.front();
-    deck.fail({first.place, first.key, "only the free sides of a mesh touch layers, and this one does not go with what it holds", "motion.policy = \"lagrangian\", or \"relax\" with its boundary lagrangian"});
+    deck.fail({first.place, first.key, "in 3D only the free sides of a mesh touch layers, and this one does not go with what it holds", "motion.policy = \"lagrangian\", or \"relax\" with its boundary lagrangian; or an axisymmetric scene"});
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
+#include "ale/embedding.hpp"
 #include "problems/layers_checkpoint.hpp"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ std::vector<double> pack(const Ledger& l) {
                            l.energy_out, l.momentum_out[0], l.momentum_out[1], l.momentum_out[2], l.sliver_energy,
                            l.sliver_mass, static_cast<double>(l.slivers), static_cast<double>(l.spalled_cells),
                            static_cast<double>(l.energy_floors), static_cast<double>(l.retries), static_cast<double>(l.closed_voids),
-                           l.sliding_impact};
+                           l.sliding_impact, l.embedded_given};
   v.insert(v.end(), l.mass_out.begin(), l.mass_out.end());
   return v;
 }
@@ -57,7 +58,8 @@ void unpack(const std::vector<double>& v, Ledger& l) {
   l.retries = static_cast<long>(v.at(14));
   l.closed_voids = static_cast<long>(v.at(15));
   l.sliding_impact = v.at(16);
-  l.mass_out.assign(v.begin() + 17, v.end());
+  l.embedded_given = v.at(17);
+  l.mass_out.assign(v.begin() + 18, v.end());
 }
 
 } // namespace
@@ -165,6 +167,9 @@ void read_checkpoint(const std::filesystem::path& path, Scene<Dim>& scene, Clock
     update_traction(b, *scene.pool);
   }
   get_layers(in, scene.layers);
+  for (const auto& e : scene.embedded) {
+    find_bodies(scene, *e);
+  }
 }
 
 template void write_checkpoint<2>(const std::filesystem::path&, const Scene<2>&, const Clock&, const RunMemory&);

@@ -25,7 +25,7 @@ template <int Dim> EnergyAccount RunSession<Dim>::account(const Totals& t, const
   a.kinetic = t.kinetic_energy + layers.kinetic;
   a.internal = t.internal() + layers.internal;
   a.total = a.kinetic + a.internal;
-  a.known = l.boundary_work + l.ambient_work + l.void_work - l.remap_kinetic_loss - l.energy_out - l.sliver_energy - layers.lost;
+  a.known = l.boundary_work + l.ambient_work + l.void_work - l.remap_kinetic_loss - l.energy_out - l.sliver_energy - layers.lost - l.embedded_given;
   a.unaccounted = a.total - memory_.energy_start - a.known;
   return a;
 }

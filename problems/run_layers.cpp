@@ -23,7 +23,8 @@ template <int Dim> LayerSums sum_layers(const std::vector<Layers<Dim>>& layers) 
     sums.mass += t.mass;
     sums.kinetic += t.leapfrog_kinetic;
     sums.internal += t.internal + t.hourglass + t.shock_heat;
-    sums.lost += ledger.edge_work + ledger.edge_loss + ledger.contact_loss + ledger.step_change;
+    sums.lost += ledger.edge_work + ledger.edge_loss + ledger.contact_loss + ledger.step_change - ledger.load_work;
+    sums.load_work += ledger.load_work;
     for (std::size_t d = 0; d < 3; ++d) {
       sums.momentum[d] += t.momentum[d];
       sums.edge_impulse[d] += ledger.edge_impulse[d];
@@ -100,6 +101,7 @@ template <int Dim> nlohmann::ordered_json LayersRecord<Dim>::results(const Scene
                      {"contact_loss", ledger.contact_loss},
                      {"friction_loss", ledger.friction_loss},
                      {"step_change", ledger.step_change},
+                     {"from_the_mesh_around", ledger.load_work},
                      {"eroded", ledger.eroded_energy}};
     j["penetration_deepest_m"] = ledger.deepest;
     j["approach_in_a_step_largest_by_thickness"] = l.closing;

@@ -17,7 +17,8 @@ struct LayerSums {
   double mass = 0;    ///< kg
   double kinetic = 0; ///< leapfrog's
   double internal = 0; ///< of the elements' stresses and of their stabilisation
-  double lost = 0;    ///< to edges, in contact and where the step changed: kinetic + internal + lost keeps
+  double lost = 0;    ///< to edges, in contact, where the step changed, less load_work: kinetic + internal + lost keeps
+  double load_work = 0; ///< done on them by a mesh that they lie in
   std::array<double, 3> momentum = {0, 0, 0};     ///< kg m/s
   std::array<double, 3> edge_impulse = {0, 0, 0}; ///< given to the stacks by held edges
   double seconds = 0, contact_seconds = 0;        ///< on the wall, this run

@@ -70,7 +70,10 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
                    {"left_block", l.energy_out}, {"slivers", l.sliver_energy}, {"unaccounted", a.unaccounted}};
   if (!scene_.layers.empty()) {
     j["wall_seconds_of_layers"] = {{"elements", layers.seconds - layers.contact_seconds}, {"contact", layers.contact_seconds}}; // of this run
-    j["energy_J"]["lost_by_layers"] = layers.lost; // in contact, to edges and where their step changed
+    j["energy_J"]["lost_by_layers"] = layers.lost + layers.load_work; // in contact, to edges and where their step changed
+  }
+  if (!scene_.embedded.empty()) {
+    j["energy_J"]["lost_where_the_mesh_meets_layers"] = l.embedded_given - layers.load_work; // impacts
   }
   const double energy_scale = std::max(std::abs(memory_.energy_start), 1e-300);
   j["conservation_errors"] = {{"mass_relative", mass_error},

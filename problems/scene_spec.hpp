@@ -119,6 +119,8 @@ const std::vector<std::string>& field_quantities();
 
 /// Do the sides of a mesh with this motion go with the matter there?
 bool sides_go_along(const Motion& motion);
+/// Do layers lie in a mesh that moves so, as bodies inside it, instead of touching its sides?
+inline bool embeds_layers(const Motion& motion) { return !sides_go_along(motion); }
 /// "planar", "axisymmetric", "3d".
 std::string name_of(Geometry geometry);
 /// Names of the mesh axes, "r", "z" or "x", "y", "z".

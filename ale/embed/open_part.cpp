@@ -149,7 +149,15 @@ template <> double open_volume<2>(const LevelCell<2>& c, bool axisymmetric) {
   return sum;
 }
 
-double open_swept(const SweptFace& f, bool axisymmetric) {
+template <> double open_share<2>(const std::array<double, 2>& level) {
+  const auto [a, b] = level;
+  if (a > 0 && b > 0) {
+    return 1;
+  }
+  return a > 0 ? a / (a - b) : b > 0 ? b / (b - a) : 0.0;
+}
+
+template <> double open_swept<2>(const SweptFace<2>& f, bool axisymmetric) {
   // The quadrilateral a, a', b', b in two triangles with their signs: crossed ones, too, add up.
   const auto &a = f.before[0], &b = f.before[1], &a1 = f.after[0], &b1 = f.after[1];
   return open_triangle({a, a1, b1}, {f.level_before[0], f.level_after[0], f.level_after[1]}, axisymmetric) +

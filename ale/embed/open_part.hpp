@@ -48,10 +48,14 @@ template <int Dim> double open_volume(const LevelCell<Dim>& cell, bool axisymmet
 
 /// Open part (m3) of what a face sweeps, signed: positive along its axis. The face's corners before and after the motion, turning as
 /// the face of remap/swept does; 2D: two corners.
-struct SweptFace {
-  std::array<std::array<double, 2>, 2> before, after;
-  std::array<double, 2> level_before, level_after;
+template <int Dim> struct SweptFace {
+  static constexpr int corners = 1 << (Dim - 1);
+  std::array<std::array<double, Dim>, corners> before = {}, after = {};
+  std::array<double, corners> level_before = {}, level_after = {};
 };
-double open_swept(const SweptFace& face, bool axisymmetric);
+template <int Dim> double open_swept(const SweptFace<Dim>& face, bool axisymmetric);
+
+/// Open share of a face by its corners' levels, as of one whose edges are alike.
+template <int Dim> double open_share(const std::array<double, 1 << (Dim - 1)>& level);
 
 } // namespace ballast

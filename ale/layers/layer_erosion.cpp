@@ -13,6 +13,32 @@ template <int Dim> bool is_lost(const LayerStack<Dim>& s, const std::array<doubl
   return lost;
 }
 
+/// Does an element still hang on another of its layer?
+template <int Dim> bool hangs(const LayerStack<Dim>& s, int i, int j, int level) {
+  const auto there = [&](int p, int q) { return p >= 0 && q >= 0 && p < s.grid.elements[0] && q < s.grid.elements[1] && s.alive[s.element(p, q, level)] != 0; };
+  return there(i - 1, j) || there(i + 1, j) || there(i, j - 1) || there(i, j + 1);
+}
+
+/// What torn elements leave alone is debris.
+template <int Dim> void erode_islands(LayerStack<Dim>& s, LayerLedger& ledger) {
+  std::vector<std::size_t> alone;
+  for (int level = 0; level < s.grid.levels(); ++level) {
+    for (int j = 0; j < s.grid.elements[1]; ++j) {
+      for (int i = 0; i < s.grid.elements[0]; ++i) {
+        const std::size_t e = s.element(i, j, level);
+        if (s.alive[e] != 0 && !hangs(s, i, j, level)) {
+          alone.push_back(e);
+        }
+      }
+    }
+  }
+  for (const std::size_t e : alone) {
+    s.alive[e] = 0;
+    ledger.eroded_energy += s.energy[e];
+    ++ledger.eroded_elements;
+  }
+}
+
 } // namespace
 
 template <int Dim> void erode(LayerStack<Dim>& s, const std::array<double, 2>& lost_at, LayerLedger& ledger) {
@@ -32,6 +58,9 @@ template <int Dim> void erode(LayerStack<Dim>& s, const std::array<double, 2>& l
         ++ledger.eroded_elements;
       }
     }
+  }
+  if (s.guard.torn > 0 && s.grid.elements[0] * s.grid.elements[1] > 1) {
+    erode_islands(s, ledger);
   }
 }
 

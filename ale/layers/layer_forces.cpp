@@ -303,6 +303,25 @@ template <int Dim> void gather(const ElementRow<Dim>& row, int j, int level) {
   }
 }
 
+/// Elements pressed to less than the guard's `torn`, or with a surface inside out, count as past every rupture: the next step erodes them.
+template <int Dim> void tear(const ElementRow<Dim>& row) {
+  constexpr double past = 1e9; // Green strain
+  for (int i = 0; i < row.sizes.count; ++i) {
+    const Gradients a = row.sizes.gradients(i, Dim == 3);
+    const Modes<Dim> c = modes_at(row.x, i);
+    const Hourglass<Dim> H = hourglass_form(c, c, a);
+    const double J0 = H[Count<Dim>::quadratic] / Dim, J1 = H[Count<Dim>::quadratic + 1] / Dim;
+    const std::size_t e = row.first + static_cast<std::size_t>(i);
+    if (row.s.alive[e] != 0 && (volume_ratio(c, a) < row.s.guard.torn || J0 <= 0 || J1 <= 0)) {
+      for (auto& point : row.s.largest) {
+        for (auto& family : point) {
+          family[e] = past;
+        }
+      }
+    }
+  }
+}
+
 template <int Dim> RowReport update_row(LayerStack<Dim>& s, const LawAtRest<Dim>& law, RowScratch<Dim>& scratch, int j, int level, double dt) {
   const ElementRow<Dim> row{s, law, scratch, row_sizes(s, j, level), s.element(0, j, level), node_rows(s, s.position, j, level), node_rows(s, s.velocity, j, level),
                             element_rows<Count<Dim>::strains>(s, s.stress_volume, j, level), element_rows<Count<Dim>::hourglass>(s, s.hourglass_volume, j, level)};
@@ -316,6 +335,9 @@ template <int Dim> RowReport update_row(LayerStack<Dim>& s, const LawAtRest<Dim>
   report.bad = corners.bad, report.turned = corners.turned;
   find_steps(row);
   gather(row, j, level);
+  if (s.guard.torn > 0) {
+    tear(row);
+  }
   return report;
 }
 

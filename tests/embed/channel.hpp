@@ -66,11 +66,8 @@ inline Layers<2> plate_across(const HookeSolid& solid, double width, int across,
   return l;
 }
 
-inline void embed(Scene<2>& scene, double cell) {
-  Embedding<2> e;
-  e.block = 0;
-  e.least_thickness = 1.5 * cell;
-  scene.embedded.push_back(std::move(e));
+inline void embed(Scene<2>& scene) {
+  scene.embedded.push_back(std::make_shared<Embedding<2>>());
   prepare(scene);
 }
 

@@ -27,7 +27,7 @@ TEST(EmbeddedPlate, TakesTaylorsMomentum) {
     }));
     scene.layers.push_back(plate_across(solid, cell, 1, from, from + h, 6));
     scene.numerics.energy_return = false;
-    embed(scene, cell);
+    embed(scene);
     Clock clock;
     clock.end_time = 4 * until;
     double momentum = 0, at = 0;
@@ -35,7 +35,7 @@ TEST(EmbeddedPlate, TakesTaylorsMomentum) {
       advance(scene, clock);
       const double now = totals(scene.layers[0].stack).momentum[1] / cell;
       if (std::getenv("TRACE")) {
-        fmt::print("{} t/theta {:.3f} I {:.5f} p {:.4g}\n", clock.step, clock.time / theta, now / (2 * p0 * theta), scene.embedded[0].cut.empty() ? 0.0 : scene.blocks[0].pressure.row(scene.embedded[0].cut[0].row)[0] / p0);
+        fmt::print("{} t/theta {:.3f} I {:.5f} p {:.4g}\n", clock.step, clock.time / theta, now / (2 * p0 * theta), scene.embedded[0]->cut.empty() ? 0.0 : scene.blocks[0].pressure.row(scene.embedded[0]->cut[0].row)[0] / p0);
       }
       if (now > momentum) {
         momentum = now;
@@ -60,7 +60,7 @@ TEST(EmbeddedPlate, CompressesConfinedWaterSlowly) {
     v = -speed;
   }
   scene.numerics.energy_return = false;
-  embed(scene, cell);
+  embed(scene);
   Clock clock;
   clock.end_time = travel / speed;
   double worst_mean = 0, ringing = 0;

@@ -30,7 +30,7 @@ Scene<2> two_waters(const Box& box, double density = 1e6) {
   allocate_block(b, std::array<std::vector<double>, 3>{even_lines(0, box.width, nx), even_lines(0, box.height, nz), {}});
   const double rho = 1000 * std::pow(1 + box.pressure / 6e8, 1 / 4.4), e = (box.pressure + 4.4 * 6e8) / (3.4 * rho);
   for_each_cell(b, [&](int i, int j, int k) {
-    const double x = (i + 0.5) * box.cell - box.x, z = (j + 0.5) * box.cell - box.z + 0.5 * std::max(0.0, env("LEAST", 1.5) * box.cell - box.thickness) / std::cos(box.angle);
+    const double x = (i + 0.5) * box.cell - box.x, z = (j + 0.5) * box.cell - box.z + 0.5 * std::max(0.0, 1.05 * std::sqrt(2.0) * box.cell - box.thickness) / std::cos(box.angle);
     const CellPart part{-std::sin(box.angle) * x + std::cos(box.angle) * z > 0 ? 1 : 0, 1, rho, e};
     fill_cell<2>(b, i, j, k, std::span(&part, 1));
   });
@@ -89,10 +89,10 @@ TEST(EmbeddedObliquely, Trial) {
   for (std::size_t n = 0; n < u[0].size(); ++n) {
     u[0][n] = along * std::cos(box.angle);
     u[1][n] = v + along * std::sin(box.angle);
+    u[0][n] -= env("SPIN", 0) * (scene.layers[0].stack.position[1][n] - box.z);
+    u[1][n] += env("SPIN", 0) * (scene.layers[0].stack.position[0][n] - box.x);
   }
-  Embedding<2> e;
-  e.least_thickness = env("LEAST", 1.5) * box.cell;
-  scene.embedded.push_back(e);
+  scene.embedded.push_back(std::make_shared<Embedding<2>>());
   prepare(scene);
   Clock clock;
   clock.end_time = env("END", 20e-6);

@@ -21,7 +21,7 @@ TEST(EmbeddedPlate, WaterOnAPlateMatchesImpedance) {
   }));
   scene.layers.push_back(plate_across(solid, 2 * cell, 2, from, to, 120));
   scene.numerics.energy_return = false;
-  embed(scene, cell);
+  embed(scene);
   const ChannelSums start = channel_sums(scene);
   Clock clock;
   clock.end_time = std::getenv("END") ? std::atof(std::getenv("END")) : 10e-6;
@@ -63,7 +63,7 @@ TEST(EmbeddedPlate, WaterOnAPlateMatchesImpedance) {
     for (int j = 0; j < b.grid.cells[1]; ++j) {
       const int r = b.grid.cell_row(j, 0);
       if (b.pressure.row(r)[0] != 0 || b.density.row(r)[0] > 0) {
-        fmt::print("{:3d} z {:.4g} kind {} T {:.4g} rho {:.5g} p/p* {:.5f} u {:.5g} void {:.3g}\n", j, (j + 0.5) * cell, scene.embedded[0].kind_of(b.grid, r, 0), b.volume.row(r)[0] / cell / cell, b.density.row(r)[0], b.pressure.row(r)[0] / pressure,
+        fmt::print("{:3d} z {:.4g} kind {} T {:.4g} rho {:.5g} p/p* {:.5f} u {:.5g} void {:.3g}\n", j, (j + 0.5) * cell, scene.embedded[0]->kind_of(b.grid, r, 0), b.volume.row(r)[0] / cell / cell, b.density.row(r)[0], b.pressure.row(r)[0] / pressure,
                    b.velocity[1].row(b.grid.node_row(j, 0))[0], b.materials[1].store.row(0, r)[0]);
       }
     }

@@ -1,9 +1,9 @@
-// Body: a stack of layers as what lies in a mesh's way, its outer faces and the signed distance to them.
+// LayerBody: a stack of layers as what lies in a mesh's way, its outer faces and the signed distance to them.
 //
 // The faces are those of the first and the last element that is left of every column through the stack, and at rims the way from
 // one to the other; what is between plies belongs to the body. A mesh sees a body only if it is thick enough: a cell must not have
 // open corners on both sides, so a stack thinner than `least_thickness` is taken as that thick, the room added to its lower face
-// first where it has lost elements (ale/embed/body.cpp). Distances are to straight faces; the foot says which nodes carry it.
+// first where it has lost elements (ale/embed/layer_body.cpp). Distances are to straight faces; the foot says which nodes carry it.
 #pragma once
 
 #include "ale/layers/layer_stack.hpp"
@@ -24,10 +24,11 @@ template <int Dim> struct BodyFoot {
   int side = 0;                            ///< 0: on the lower face, 1: upper, 2: rim
 };
 
-template <int Dim> class Body {
+template <int Dim> class LayerBody {
 public:
-  /// The outer faces of a stack as it stands; `bin` (m): about the distance at which points are asked for.
-  Body(const LayerStack<Dim>& stack, double least_thickness, double bin);
+  /// The outer faces of a stack as it stands. `alive`: the elements that count; `least_thickness` (m) by node of a plane; `bin` (m): about the distance at which points
+  /// are asked for.
+  LayerBody(const LayerStack<Dim>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin);
 
   /// The foot of a point if it is within `reach` (m) of the body's faces. Sides alike: the lower-numbered face. `side` 0 or 1: on that
   /// side's faces or a rim's, however far inside.
@@ -35,6 +36,13 @@ public:
 
   /// Is a point inside, however far from the faces?
   bool inside(const std::array<double, Dim>& point) const;
+
+  /// Is a point within `reach` of the box around the faces? Beyond ends that go on, too.
+  bool near(const std::array<double, Dim>& point, double reach) const;
+
+  /// m: the farthest that feet are asked for.
+  void set_longest_reach(double reach) { longest_reach_ = reach; }
+  double longest_reach() const { return longest_reach_; }
 
   bool empty() const { return faces_.empty(); }
 
@@ -52,14 +60,14 @@ private:
     int side;
   };
 
-  void add_faces(const LayerStack<Dim>& stack, double least_thickness);
+  void add_faces(const LayerStack<Dim>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness);
   void fill_bins(double bin);
 
   std::vector<Vertex> vertices_;
   std::vector<Face> faces_;
   std::array<double, Dim> low_ = {}, high_ = {};
   std::array<int, Dim> bins_ = {};
-  double bin_ = 0;
+  double bin_ = 0, thickest_ = 0, longest_reach_ = 0; ///< m: what the body is made thicker at most
   std::vector<int> first_, binned_; ///< faces by bin
 };
 

@@ -1,4 +1,4 @@
-#include "ale/embed/body.hpp"
+#include "ale/embed/layer_body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +29,10 @@ struct Column {
   bool empty() const { return first > last; }
 };
 
-template <int Dim> Column column_at(const LayerStack<Dim>& s, int i, int j) {
+template <int Dim> Column column_at(const LayerStack<Dim>& s, const std::vector<char>& alive, int i, int j) {
   Column c{s.grid.levels(), -1};
   for (int level = 0; level < s.grid.levels(); ++level) {
-    if (s.alive[s.element(i, j, level)] != 0) {
+    if (alive[s.element(i, j, level)] != 0) {
       c.first = std::min(c.first, level);
       c.last = level;
     }
@@ -54,17 +54,19 @@ Padding padding(double least, double left, double lost_below, double lost_above)
 } // namespace
 
 /// Around each run of columns: along the lower faces, up the rim, back along the upper ones; the body lies to the left.
-template <> void Body<2>::add_faces(const LayerStack<2>& s, double least) {
+template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least) {
   const int n = s.grid.elements[0];
   std::vector<Column> columns;
   for (int i = 0; i < n; ++i) {
-    columns.push_back(column_at(s, i, 0));
+    columns.push_back(column_at(s, alive, i, 0));
   }
   const double bottom = s.levels.front(), top = s.levels.back();
   const auto vertex = [&](int i, int plane, bool lower, const Column& c) {
     const std::size_t node = s.node(i, 0, plane);
-    const double low = s.rest[1][s.node(i, 0, s.plane_below(c.first))], high = s.rest[1][s.node(i, 0, s.plane_below(c.last) + 1)];
-    const Padding pad = padding(least, high - low, low - bottom, top - high);
+    const std::size_t first = s.node(i, 0, s.plane_below(c.first)), last = s.node(i, 0, s.plane_below(c.last) + 1);
+    const double low = s.rest[1][first], high = s.rest[1][last];
+    const double now = std::hypot(s.position[0][last] - s.position[0][first], s.position[1][last] - s.position[1][first]);
+    const Padding pad = padding(least[static_cast<std::size_t>(i)], std::min(high - low, now), low - bottom, top - high);
     Vertex v{node, {s.position[0][node], s.position[1][node]}, lower ? pad.below : pad.above, {}, false};
     vertices_.push_back(v);
     return static_cast<int>(vertices_.size()) - 1;
@@ -131,14 +133,14 @@ template <> void Body<2>::add_faces(const LayerStack<2>& s, double least) {
   }
 }
 
-template <int Dim> Body<Dim>::Body(const LayerStack<Dim>& stack, double least_thickness, double bin) {
-  add_faces(stack, least_thickness);
+template <int Dim> LayerBody<Dim>::LayerBody(const LayerStack<Dim>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin) {
+  add_faces(stack, alive, least_thickness);
   if (!faces_.empty()) {
     fill_bins(bin);
   }
 }
 
-template <int Dim> void Body<Dim>::fill_bins(double bin) {
+template <int Dim> void LayerBody<Dim>::fill_bins(double bin) {
   low_ = high_ = vertices_.front().x;
   for (const Vertex& v : vertices_) {
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -147,6 +149,9 @@ template <int Dim> void Body<Dim>::fill_bins(double bin) {
     }
   }
   bin_ = bin;
+  for (const Vertex& v : vertices_) {
+    thickest_ = std::max(thickest_, v.offset);
+  }
   constexpr double most = 4096; // bins along an axis
   std::size_t count = 1;
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -198,15 +203,12 @@ template <int Dim> void Body<Dim>::fill_bins(double bin) {
   }
 }
 
-template <> bool Body<2>::foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out, int side) const {
+template <> bool LayerBody<2>::foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out, int side) const {
   if (faces_.empty()) {
     return false;
   }
-  double pad = 0, best = 1e300;
-  for (const Vertex& v : vertices_) {
-    pad = std::max(pad, v.offset);
-  }
-  const double far = reach + pad;
+  double best = 1e300;
+  const double far = reach + thickest_;
   std::array<int, 2> a{}, b{};
   for (std::size_t d = 0; d < 2; ++d) {
     // What lies beyond an end looks at the end's own bin.
@@ -273,7 +275,12 @@ template <> bool Body<2>::foot(const std::array<double, 2>& point, double reach,
   return std::abs(out.level) <= reach;
 }
 
-template <> bool Body<2>::inside(const std::array<double, 2>& p) const {
+template <> bool LayerBody<2>::near(const std::array<double, 2>& p, double reach) const {
+  const double far = reach + thickest_;
+  return !faces_.empty() && p[1] > low_[1] - far && p[1] < high_[1] + far; // along the layers faces may go on
+}
+
+template <> bool LayerBody<2>::inside(const std::array<double, 2>& p) const {
   bool in = false; // a ray along the last axis, down: closed at ends that go on, since faces reach on there
   for (const Face& face : faces_) {
     const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
@@ -290,6 +297,6 @@ template <> bool Body<2>::inside(const std::array<double, 2>& p) const {
   return in;
 }
 
-template Body<2>::Body(const LayerStack<2>&, double, double);
+template LayerBody<2>::LayerBody(const LayerStack<2>&, const std::vector<char>&, const std::vector<double>&, double);
 
 } // namespace ballast
