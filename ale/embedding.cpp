@@ -355,6 +355,9 @@ template <int Dim> static void find_least_thickness(const Scene<Dim>& scene, con
         }
       }
     });
+    // Columns beyond the mesh bound faces that reach into it.
+    const double most = least.empty() ? 0.0 : *std::max_element(least.begin(), least.end());
+    std::replace(least.begin(), least.end(), 0.0, most);
     e.least_thickness.push_back(std::move(least));
   }
 }
@@ -449,13 +452,10 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
     // becomes void in the next step, less is taken bit by bit, and what a body would bury waits for the remap to hand it on.
     const double gap = b.materials.back().store.row(field::fraction, r)[i], held = (1 - gap) * old;
     const int kind = e.kind_of(g, r, i);
-    double expected = old;
-    if (kind >= 0) {
-      expected += e.force[static_cast<std::size_t>(kind)].half.volume - old; // half of it, twice
-      expected += e.force[static_cast<std::size_t>(kind)].half.volume - old;
-    }
-    const double whole = std::max(volume, old);
-    volume = open > 0 ? std::clamp(open, keeps_of_room * held, std::max(expected, held) + largest_jump * whole) : old;
+    const bool alone = kind >= 0 && is_sliver(e, b, r, i) && e.cut[static_cast<std::size_t>(kind)].root < 0; // no one's material flows after it
+    const double moved = kind >= 0 ? 2 * (e.force[static_cast<std::size_t>(kind)].half.volume - old) : 0.0;
+    const double most = alone ? held * (1 + largest_jump) : std::max(old + moved, held) + largest_jump * std::max(volume, old);
+    volume = open > 0 ? std::clamp(open, keeps_of_room * held, std::max(most, gap > 0 ? open : 0.0)) : old;
   });
 }
 

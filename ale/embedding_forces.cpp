@@ -248,9 +248,8 @@ template <int Dim> Pool pool_of(const Scene<Dim>& scene, const Embedding<Dim>& e
       root = e.cut[static_cast<std::size_t>(kind)];
     }
     const auto u = corner_velocities<Dim>(b.grid, b.velocity, c.root_cell);
-    const double now = b.volume.row(r)[c.root_cell[0]];
-    pool.volume += now;
-    pool.change += open_volume(half_way<Dim>(scene, e, b, root, half, u), b.axisymmetric) - now;
+    pool.volume += b.volume.row(r)[c.root_cell[0]];
+    pool.change += open_volume(half_way<Dim>(scene, e, b, root, half, u), b.axisymmetric) - open_volume(half_way<Dim>(scene, e, b, root, 0, u), b.axisymmetric);
   }
   return pool;
 }

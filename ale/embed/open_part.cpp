@@ -16,12 +16,16 @@ struct Polygon {
   const std::array<double, 2>& at(int v) const { return x[static_cast<std::size_t>((v + count) % count)]; }
 
   double volume(bool axisymmetric) const {
-    double sum = 0;
-    for (int v = 0; v < count; ++v) {
-      const auto &a = at(v), &b = at(v + 1);
-      sum += axisymmetric ? (a[0] * a[0] + b[0] * b[0] + a[0] * b[0]) * (b[1] - a[1]) : a[0] * b[1] - b[0] * a[1];
+    // From the first vertex on: products of far coordinates would cost digits. Around an axis 2 pi (r0 A + integral of r - r0).
+    const auto& o = at(0);
+    double area = 0, moment = 0;
+    for (int v = 1; v + 1 < count; ++v) {
+      const double ax = at(v)[0] - o[0], ay = at(v)[1] - o[1], bx = at(v + 1)[0] - o[0], by = at(v + 1)[1] - o[1];
+      const double twice = ax * by - bx * ay;
+      area += 0.5 * twice;
+      moment += twice * (ax + bx) / 6;
     }
-    return sum * (axisymmetric ? std::numbers::pi / 3 : 0.5);
+    return axisymmetric ? 2 * std::numbers::pi * (o[0] * area + moment) : area;
   }
   std::array<double, 2> gradient(int v, bool axisymmetric) const {
     const auto &m = at(v - 1), &p = at(v), &n = at(v + 1);

@@ -1,0 +1,323 @@
+// Slivers and their roots: one state for both, and what the cells then hold.
+#include "ale/embedding_pass.hpp"
+
+namespace ballast {
+
+namespace {
+
+constexpr double nothing = 1e-12;    ///< of a cell at reference density: a material's trace that is dropped, with an entry
+constexpr double merged_below = 0.25; ///< of a whole cell: smaller slivers hold the same mixture as their root, void and all
+constexpr double largest_stretch = 0.98; ///< of a cell's room: less than that is a void
+
+} // namespace
+
+template <int Dim> void EmbeddedRemap<Dim>::pool() {
+  path_[0] = b_.position;
+  levels_[0] = e_.next;
+  find_cells<Dim>(b_, path_[0], levels_[0], lag_.kind, lag_.cut);
+  target_ = lag_;
+  find_special();
+  gather();
+  for (std::size_t c = 0; c < cells_.size(); ++c) { // as they are, but for what has no room
+    to_volume_[c] = lag_.kind[dense(cells_[c])] == covered_cell ? 0.0 : from_volume_[c];
+  }
+  find_roots(target_, to_volume_, next_root_);
+  bury();
+  equalise();
+  scatter();
+  move_momentum();
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::pool_contents(const std::vector<int>& root, std::vector<Contents>& pool, std::vector<char>& pooled) const {
+  pool.assign(cells_.size(), Contents{});
+  pooled.assign(cells_.size(), 0);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const auto q = static_cast<std::size_t>(root[c]);
+    if (pool[q].x.empty()) {
+      pool[q].x.assign(static_cast<std::size_t>(size_), 0.0);
+    }
+    for (std::size_t n = 0; n < contents_[c].x.size(); ++n) {
+      pool[q].x[n] += contents_[c].x[n];
+    }
+    pooled[q] = q != c ? 1 : pooled[q];
+  }
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::settle() {
+  std::vector<Contents> pool;
+  std::vector<char> pooled;
+  pool_contents(root_, pool, pooled);
+  std::vector<double> before(cells_.size()), volume(cells_.size());
+  std::vector<char> stirred(cells_.size(), 0);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    before[c] = mass_of(c);
+    stirred[static_cast<std::size_t>(root_[c])] |= touched_[c];
+  }
+  for (int m = 0; m < materials(); ++m) {
+    std::fill(volume.begin(), volume.end(), 0.0);
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      volume[static_cast<std::size_t>(root_[c])] += std::max(at(c, m, 0), 0.0);
+    }
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      const auto root = static_cast<std::size_t>(root_[c]);
+      if ((root == c && pooled[c] == 0) || !stirred[root]) {
+        continue;
+      }
+      const double share = volume[root] > 0 ? std::max(at(c, m, 0), 0.0) / volume[root] : (c == root ? 1.0 : 0.0);
+      for (int f = 0; f < fields(m); ++f) {
+        at(c, m, f) = share * pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)] + f)];
+      }
+    }
+  }
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const double change = mass_of(c) - before[c];
+    if (root_[c] != static_cast<int>(c) && change != 0) {
+      const int root = root_[c], cell = static_cast<int>(c);
+      transfer_.push_back({change > 0 ? root : cell, change > 0 ? cell : root, std::abs(change)});
+    }
+  }
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::keep_pools() {
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (next_root_[c] == static_cast<int>(c) && root_[c] != static_cast<int>(c)) {
+      const int to = next_root_[static_cast<std::size_t>(root_[c])];
+      next_root_[c] = to;
+    }
+  }
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    next_root_[c] = next_root_[static_cast<std::size_t>(next_root_[c])];
+  }
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::bury() {
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const auto root = static_cast<std::size_t>(next_root_[c]);
+    if (special_[dense(cells_[c])] == 0 || to_volume_[c] > 0) {
+      continue;
+    }
+    const double mass = mass_of(c);
+    if (root == c) {
+      to_volume_[c] = mass > 0 ? from_volume_[c] : 0.0;
+      continue;
+    }
+    for (std::size_t n = 0; n < contents_[c].x.size(); ++n) {
+      contents_[root].x[n] += contents_[c].x[n];
+      contents_[c].x[n] = 0;
+    }
+    if (mass != 0) {
+      transfer_.push_back({static_cast<int>(c), next_root_[c], mass});
+      touched_[root] = touched_[c] = 1;
+    }
+    next_root_[c] = static_cast<int>(c);
+  }
+}
+
+template <int Dim> bool EmbeddedRemap<Dim>::at_rest(const std::vector<std::size_t>& members) const {
+  constexpr double rounding = 1e-12;
+  for (const std::size_t c : members) {
+    if (touched_[c] != 0 || room(c) != from_volume_[c]) {
+      return false;
+    }
+  }
+  for (int m = 0; m < materials(); ++m) {
+    for (int f = 1; f < fields(m); ++f) { // density, then what a kilogram holds
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      for (const std::size_t c : members) {
+        const double whole = at(c, m, f == 1 ? 0 : 1);
+        if (whole > 0) {
+          least = std::min(least, at(c, m, f) / whole);
+          most = std::max(most, at(c, m, f) / whole);
+        }
+      }
+      if (most > least && most - least > rounding * std::max(std::abs(most), std::abs(least))) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::give_room(std::size_t root, const std::vector<std::size_t>& members) {
+  constexpr double keeps = 0.85;
+  double room_there = 0, filled = 0;
+  for (const std::size_t c : members) {
+    room_there += room(c);
+    for (int m = 0; m < materials(); ++m) {
+      filled += is_void(m) ? 0.0 : at(c, m, 0);
+    }
+  }
+  if (special_[dense(cells_[root])] != 0 && keeps * filled > room_there) {
+    to_volume_[root] += keeps * filled - room_there;
+  }
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::equalise() {
+  std::vector<Contents> pool;
+  std::vector<char> pooled;
+  pool_contents(next_root_, pool, pooled);
+  for (std::size_t root = 0; root < cells_.size(); ++root) {
+    if (pooled[root] == 0) {
+      if (next_root_[root] == static_cast<int>(root)) {
+        give_room(root, {root});
+      }
+      continue;
+    }
+    std::vector<std::size_t> members;
+    double whole = 0;
+    bool valid = true;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (static_cast<std::size_t>(next_root_[c]) == root) {
+        members.push_back(c);
+        whole += room(c);
+        double sum = 0;
+        for (int m = 0; m < materials(); ++m) {
+          valid = valid && at(c, m, 0) >= 0;
+          sum += at(c, m, 0);
+        }
+        valid = valid && std::abs(sum - room(c)) <= 0.05 * room(c);
+        valid = valid && (c == root || room(c) > merged_below * whole_of(target_, cells_[c]));
+      }
+    }
+    give_room(root, members);
+    if (at_rest(members)) {
+      continue;
+    }
+    double held = 0;
+    for (int m = 0; m < materials(); ++m) {
+      held += std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
+    }
+    for (const std::size_t c : members) {
+      const double before = mass_of(c);
+      if (!valid) {
+        for (int m = 0; m < materials(); ++m) {
+          at(c, m, 0) = std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0) / held * room(c);
+        }
+      }
+      mass_before_.push_back(before);
+    }
+    for (int m = 0; m < materials(); ++m) {
+      if (is_void(m)) {
+        continue;
+      }
+      double volume = 0;
+      for (const std::size_t c : members) {
+        volume += fitted(c, m);
+      }
+      for (const std::size_t c : members) {
+        const double share = volume > 0 ? fitted(c, m) / volume : (c == root ? 1.0 : 0.0);
+        for (int f = 1; f < fields(m); ++f) {
+          at(c, m, f) = share * pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)] + f)];
+        }
+      }
+    }
+    std::size_t q = mass_before_.size() - members.size();
+    for (const std::size_t c : members) {
+      const double change = mass_of(c) - mass_before_[q++];
+      if (c != root && change != 0) {
+        transfer_.push_back({change > 0 ? static_cast<int>(root) : static_cast<int>(c), change > 0 ? static_cast<int>(c) : static_cast<int>(root), std::abs(change)});
+      }
+    }
+  }
+}
+
+template <int Dim> double EmbeddedRemap<Dim>::fitted(std::size_t c, int m) const {
+  double sum = 0;
+  for (int q = 0; q < materials(); ++q) {
+    sum += is_void(q) ? 0.0 : std::max(at(c, q, 0), 0.0);
+  }
+  const double v = std::max(at(c, m, 0), 0.0);
+  const auto root = static_cast<std::size_t>(next_root_[c]);
+  const auto hollow = [&](std::size_t q) { return at(q, materials() - 1, 0) > 1e-9 * room(q); };
+  // Room that geometry has left over is filled; of a sliver all of it if what is behind it is solid.
+  const bool fills = !hollow(c) && !hollow(root) && sum > (root == c ? largest_stretch : 0.0) * room(c);
+  return sum > room(c) || fills ? v * room(c) / sum : v;
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::scatter() {
+  e_.pockets.clear();
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (contents_[c].x == start_[c].x && room(c) == from_volume_[c]) {
+      keep_room(c);
+      continue;
+    }
+    const std::array<int, 3>& cell = cells_[c];
+    const int r = g_.cell_row(cell[1], cell[2]), i = cell[0];
+    const double volume = room(c);
+    double left = 1;
+    const bool covered = special_[dense(cell)] != 0 && !(volume > 0);
+    for (int m = 0; m < materials(); ++m) {
+      MaterialSlot& slot = b_.materials[static_cast<std::size_t>(m)];
+      if (slot.is_void) {
+        continue;
+      }
+      const double v = covered ? 0.0 : fitted(c, m), mass = at(c, m, 1);
+      const bool some = v > 0 && mass > nothing * slot.material.density * volume;
+      if (!some && mass != 0) {
+        scene_.ledger.sliver_mass += mass;
+        scene_.ledger.sliver_energy += at(c, m, 2);
+        ++scene_.ledger.slivers;
+      }
+      if (!some && !slot.store.has_row(r)) {
+        continue;
+      }
+      slot.store.allocate(slot.store.tile_of(r));
+      slot.store.row(field::fraction, r)[i] = some ? v / volume : 0.0;
+      slot.store.row(field::mass, r)[i] = some ? mass : 0.0;
+      for (int f = 2; f < slot.store.conserved(); ++f) {
+        slot.store.row(f, r)[i] = some ? at(c, m, f) / mass : 0.0;
+      }
+      left -= some ? v / volume : 0.0;
+    }
+    TileStore& gap = b_.materials.back().store;
+    gap.allocate(gap.tile_of(r));
+    gap.row(field::fraction, r)[i] = left > 1e-13 ? left : 0.0;
+    b_.volume.row(r)[i] = covered ? whole_of(target_, cell) : volume;
+    if (!covered) {
+      keep_room(c);
+    }
+    settle_round_off(r, i);
+    compute_owner(b_, r, {i, i + 1});
+  }
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::settle_round_off(int r, int i) {
+  double sum = 0, most = 0;
+  MaterialSlot* largest = nullptr;
+  for (MaterialSlot& slot : b_.materials) {
+    const double f = std::as_const(slot.store).row(field::fraction, r)[i];
+    sum += f;
+    if (f > most) {
+      most = f;
+      largest = &slot;
+    }
+  }
+  if (largest != nullptr) {
+    largest->store.row(field::fraction, r)[i] += 1 - sum;
+  }
+}
+
+template void EmbeddedRemap<2>::pool();
+template void EmbeddedRemap<3>::pool();
+template void EmbeddedRemap<2>::pool_contents(const std::vector<int>& root, std::vector<Contents>& pool, std::vector<char>& pooled) const;
+template void EmbeddedRemap<3>::pool_contents(const std::vector<int>& root, std::vector<Contents>& pool, std::vector<char>& pooled) const;
+template void EmbeddedRemap<2>::settle();
+template void EmbeddedRemap<3>::settle();
+template void EmbeddedRemap<2>::keep_pools();
+template void EmbeddedRemap<3>::keep_pools();
+template void EmbeddedRemap<2>::bury();
+template void EmbeddedRemap<3>::bury();
+template bool EmbeddedRemap<2>::at_rest(const std::vector<std::size_t>& members) const;
+template bool EmbeddedRemap<3>::at_rest(const std::vector<std::size_t>& members) const;
+template void EmbeddedRemap<2>::give_room(std::size_t root, const std::vector<std::size_t>& members);
+template void EmbeddedRemap<3>::give_room(std::size_t root, const std::vector<std::size_t>& members);
+template void EmbeddedRemap<2>::equalise();
+template void EmbeddedRemap<3>::equalise();
+template double EmbeddedRemap<2>::fitted(std::size_t c, int m) const;
+template double EmbeddedRemap<3>::fitted(std::size_t c, int m) const;
+template void EmbeddedRemap<2>::scatter();
+template void EmbeddedRemap<3>::scatter();
+template void EmbeddedRemap<2>::settle_round_off(int r, int i);
+template void EmbeddedRemap<3>::settle_round_off(int r, int i);
+
+} // namespace ballast
