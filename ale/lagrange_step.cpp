@@ -292,10 +292,11 @@ template <int Dim> WorstCell move_cells(Scene<Dim>& scene, Block<Dim>& b) {
   return least;
 }
 
-/// Layers move and touch the blocks, whose cells then move anew.
-template <int Dim> void move_layers(Scene<Dim>& scene, const Clock& clock) {
+/// Layers move and touch the blocks, whose cells then move anew. False: a mesh with layers inside would turn a cell inside out, and the
+/// step is to be taken again, smaller, from layers and ledger as they were.
+template <int Dim> bool move_layers(Scene<Dim>& scene, const Clock& clock, bool again) {
   if (scene.layers.empty()) {
-    return;
+    return true;
   }
   for (const auto& e : scene.embedded) {
     load_layers(scene, *e, clock.dt);
@@ -306,6 +307,9 @@ template <int Dim> void move_layers(Scene<Dim>& scene, const Clock& clock) {
   }
   for (Block<Dim>& b : scene.blocks) {
     const WorstCell w = move_cells(scene, b);
+    if (!(w.ratio > 0) && again && embedding_of(scene, b) != nullptr) {
+      return false;
+    }
     if (!(w.ratio > 0)) {
       throw NumericalFailure(fmt::format("block {}, cell ({}, {}, {}), material {}: contact with the layers would turn it inside out at time {:g} s, dt {:g} s",
                                          b.name, w.cell[0], w.cell[1], w.cell[2], contents(b, w.cell), clock.time, clock.dt));
@@ -314,6 +318,7 @@ template <int Dim> void move_layers(Scene<Dim>& scene, const Clock& clock) {
   for (const auto& e : scene.embedded) {
     embedded_volumes(scene, *e);
   }
+  return true;
 }
 
 constexpr double smallest_volume_ratio = 0.2; // of one step; below it the step is retried smaller
@@ -323,6 +328,12 @@ constexpr int most_retries = 30;
 
 template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
   std::vector<BoundaryEffect> effects(scene.blocks.size());
+  std::vector<Layers<Dim>> layers; // as they were
+  Ledger ledger;
+  if (!scene.embedded.empty()) {
+    layers = scene.layers;
+    ledger = scene.ledger;
+  }
   for (int attempt = 0;; ++attempt) {
     WorstCell worst;
     std::size_t where = 0;
@@ -338,9 +349,14 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
       }
     }
     if (worst.ratio >= smallest_volume_ratio) {
-      break;
-    }
-    if (attempt >= most_retries || std::isnan(worst.ratio)) {
+      if (move_layers(scene, clock, attempt < most_retries)) {
+        break;
+      }
+      const long retries = scene.ledger.retries;
+      scene.layers = layers;
+      scene.ledger = ledger;
+      scene.ledger.retries = retries;
+    } else if (attempt >= most_retries || std::isnan(worst.ratio)) {
       throw NumericalFailure(fmt::format(
           "block {}, cell ({}, {}, {}), material {}: volume would fall to {:g} of its value at time {:g} s, dt {:g} s",
           scene.blocks[where].name, worst.cell[0], worst.cell[1], worst.cell[2],
@@ -350,7 +366,6 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
     clock.limit = {clock.dt, static_cast<int>(where), worst.cell, -1, DtCause::retry};
     ++scene.ledger.retries;
   }
-  move_layers(scene, clock);
   for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
     Block<Dim>& b = scene.blocks[ib];
     const StepSums<Dim> sums = work_pass(scene, b, clock.dt);

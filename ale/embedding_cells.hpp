@@ -1,0 +1,74 @@
+// Walking a mesh beside bodies, private to ale/embedding*.
+#pragma once
+
+#include "ale/embedding.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ballast {
+
+inline constexpr double least_open = 1e-10; ///< of a cell: less is covered
+
+/// Longest and shortest edge at a node, m.
+template <int Dim> std::array<double, 2> edges_at(const Grid& g, const std::array<RowField, Dim>& x, int i, int j, int k) {
+  double longest = 0, shortest = std::numeric_limits<double>::infinity();
+  const int index[3] = {i, j, k};
+  for (int a = 0; a < Dim; ++a) {
+    for (const int side : {-1, 1}) {
+      int to[3] = {i, j, k};
+      to[a] += side;
+      if (to[a] < 0 || to[a] > g.cells[static_cast<std::size_t>(a)]) {
+        continue;
+      }
+      double square = 0;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const double dx = x[d].row(g.node_row(to[1], to[2]))[to[0]] - x[d].row(g.node_row(index[1], index[2]))[index[0]];
+        square += dx * dx;
+      }
+      longest = std::max(longest, std::sqrt(square));
+      shortest = std::min(shortest, std::sqrt(square));
+    }
+  }
+  return {longest, shortest};
+}
+
+template <int Dim, class Visit> void for_nodes(const Grid& g, Visit&& body) {
+  for (int k = 0; k <= (Dim == 3 ? g.cells[2] : 0); ++k) {
+    for (int j = 0; j <= g.cells[1]; ++j) {
+      for (int i = 0; i <= g.cells[0]; ++i) {
+        body(i, j, k);
+      }
+    }
+  }
+}
+
+template <int Dim, class Visit> void for_cells(const Grid& g, Visit&& body) {
+  for (int k = 0; k < g.cells[2]; ++k) {
+    for (int j = 0; j < g.cells[1]; ++j) {
+      for (int i = 0; i < g.cells[0]; ++i) {
+        body(i, j, k);
+      }
+    }
+  }
+}
+
+/// Corners of a cell outside bodies.
+template <int Dim> int open_corners(const Grid& g, const Levels<Dim>& levels, int i, int j, int k) {
+  int count = 0;
+  for (int q = 0; q < (1 << (Dim - 1)); ++q) {
+    const double* level = levels.level.row(g.node_row(j + (q & 1), k + (q >> 1))) + i;
+    count += (level[0] > 0 ? 1 : 0) + (level[1] > 0 ? 1 : 0);
+  }
+  return count;
+}
+
+template <int Dim> double whole_volume(const Block<Dim>& b, const std::array<RowField, Dim>& x, int i, int j, int k) {
+  std::vector<double> v(static_cast<std::size_t>(i + 1));
+  cell_volumes(b, x, j, k, {i, i + 1}, v.data());
+  return v.back();
+}
+
+
+} // namespace ballast

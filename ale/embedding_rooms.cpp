@@ -1,0 +1,260 @@
+// What room bodies leave to cells, and how it comes and goes.
+#include "ale/embedding_cells.hpp"
+
+#include <utility>
+
+namespace ballast {
+
+namespace {
+
+constexpr double alike = 0.1;            ///< of a root, at least, is what fills most of its sliver
+constexpr double largest_jump = 0.02;    ///< of a cell: what its room may grow beyond what its nodes and the body moved
+constexpr double keeps_of_room = 0.85;   ///< of what a cell's materials fill, at least, when a body takes their room
+
+/// Volumes of the cell's materials become `parts` of `volume`; what is missing is void.
+template <int Dim> void set_volumes(Block<Dim>& b, int r, int i, double volume, const std::vector<double>& parts) {
+  double sum = 0;
+  const auto hole = static_cast<std::size_t>(b.void_index());
+  for (std::size_t m = 0; m < b.materials.size(); ++m) {
+    sum += m == hole ? 0.0 : parts[m];
+  }
+  const double shrink = sum > volume ? volume / sum : 1.0;
+  double left = 1;
+  for (std::size_t m = 0; m < b.materials.size(); ++m) {
+    if (m != hole && b.materials[m].store.has_row(r)) {
+      const double f = parts[m] * shrink / volume;
+      b.materials[m].store.row(field::fraction, r)[i] = f;
+      left -= f;
+    }
+  }
+  TileStore& gap = b.materials[hole].store;
+  gap.allocate(gap.tile_of(r));
+  gap.row(field::fraction, r)[i] = left > 1e-14 ? left : 0.0;
+}
+
+template <int Dim> std::vector<double> volumes_of(const Block<Dim>& b, int r, int i, double volume) {
+  std::vector<double> parts;
+  for (const MaterialSlot& slot : b.materials) {
+    parts.push_back(slot.store.row(field::fraction, r)[i] * volume);
+  }
+  return parts;
+}
+
+template <int Dim> bool holds_mass(const Block<Dim>& b, int r, int i) {
+  double mass = 0;
+  for (const MaterialSlot& slot : b.materials) {
+    mass += slot.is_void ? 0.0 : slot.store.row(field::mass, r)[i];
+  }
+  return mass > 0;
+}
+
+/// All of what the cell holds goes; void is left.
+template <int Dim> void empty_cell(Block<Dim>& b, int r, int i) {
+  for (MaterialSlot& slot : b.materials) {
+    for (int f = 0; f < slot.store.conserved() && slot.store.has_row(r) && !slot.is_void; ++f) {
+      slot.store.row(f, r)[i] = 0;
+    }
+  }
+  TileStore& gap = b.materials.back().store;
+  gap.allocate(gap.tile_of(r));
+  gap.row(field::fraction, r)[i] = 1;
+}
+
+} // namespace
+
+/// A sliver's root: the neighbour behind its widest opening, weighed by its own room.
+template <int Dim> static void find_roots(const Block<Dim>& b, Embedding<Dim>& e) {
+  const Grid& g = b.grid;
+  for (CutCell<Dim>& c : e.cut) {
+    const double volume = b.volume.row(c.row)[c.cell[0]];
+    double best = 0;
+    c.root = -1;
+    std::size_t main = 0; // what fills most of the sliver
+    for (std::size_t m = 1; m < b.materials.size(); ++m) {
+      const auto f = [&](std::size_t q) { return b.materials[q].store.row(field::fraction, c.row)[c.cell[0]]; };
+      main = f(m) > f(main) ? m : main;
+    }
+    for (int axis = 0; axis < Dim && volume < sliver_share * c.whole; ++axis) {
+      for (const int side : {-1, 1}) {
+        std::array<int, 3> to = c.cell;
+        const auto a = static_cast<std::size_t>(axis);
+        to[a] += side;
+        if (to[a] < 0 || to[a] >= g.cells[a]) {
+          continue;
+        }
+        const int r = g.cell_row(to[1], to[2]);
+        const bool solid = b.materials[main].store.row(field::fraction, r)[to[0]] > alike; // else a sliver is on its own
+        const double room = e.kind_of(g, r, to[0]) == covered_cell || !solid ? 0.0 : b.volume.row(r)[to[0]];
+        const double opening = face_opening<Dim>(g, e.now, axis, side < 0 ? c.cell : to);
+        if (room > volume && opening * room > best) {
+          best = opening * room;
+          c.root = static_cast<int>(e.cell_at(g, r, to[0]));
+          c.root_cell = to;
+        }
+      }
+    }
+  }
+}
+
+template <int Dim> static void keep_alive(const Scene<Dim>& scene, Embedding<Dim>& e) {
+  e.alive.clear();
+  for (const Layers<Dim>& l : scene.layers) {
+    e.alive.push_back(l.stack.alive);
+  }
+}
+
+template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e) {
+  keep_alive(scene, e);
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), nullptr);
+  find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+}
+
+/// No cell may have open corners on both sides of a body: its thickness is a diagonal of the cells around it.
+template <int Dim> static void find_least_thickness(const Scene<Dim>& scene, const Block<Dim>& b, Embedding<Dim>& e) {
+  constexpr double spare = 1.05;
+  const Grid& g = b.grid;
+  e.bin = std::numeric_limits<double>::infinity();
+  e.least_thickness.clear();
+  for (const Layers<Dim>& l : scene.layers) {
+    const LayerStack<Dim>& s = l.stack;
+    const std::size_t count = s.node(0, 0, 1);
+    std::vector<double> least(count, 0.0);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t n = 0; n < s.node_count(); ++n) {
+      low = std::min(low, s.position[Dim - 1][n]);
+      high = std::max(high, s.position[Dim - 1][n]);
+    }
+    for_nodes<Dim>(g, [&](int i, int j, int k) {
+      const int r = g.node_row(j, k);
+      const double at = b.position[Dim - 1].row(r)[i];
+      const double edge = edges_at<Dim>(g, b.position, i, j, k)[0], slack = 2 * edge;
+      if (at < low - slack || at > high + slack) {
+        return;
+      }
+      e.bin = std::min(e.bin, 2 * edge);
+      e.longest_edge = std::max(e.longest_edge, edge);
+      for (std::size_t n = 0; n < count; ++n) {
+        double off = 0;
+        for (std::size_t d = 0; d + 1 < Dim; ++d) {
+          off = std::max(off, std::abs(b.position[d].row(r)[i] - s.position[d][n]));
+        }
+        if (off <= 1.5 * edge) {
+          least[n] = std::max(least[n], spare * std::sqrt(static_cast<double>(Dim)) * edge);
+        }
+      }
+    });
+    // Columns beyond the mesh bound faces that reach into it.
+    const double most = least.empty() ? 0.0 : *std::max_element(least.begin(), least.end());
+    std::replace(least.begin(), least.end(), 0.0, most);
+    e.least_thickness.push_back(std::move(least));
+  }
+}
+
+template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e) {
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  const Grid& g = b.grid;
+  if (e.least_thickness.empty()) {
+    find_least_thickness(scene, b, e);
+  }
+  find_bodies(scene, e);
+  for_cells<Dim>(g, [&](int i, int j, int k) {
+    const int r = g.cell_row(j, k), kind = e.kind_of(g, r, i);
+    if (kind == covered_cell) {
+      empty_cell(b, r, i);
+    } else if (kind >= 0) {
+      const double whole = b.volume.row(r)[i], open = open_volume(level_cell<Dim>(g, b.position, e.now, {i, j, k}), b.axisymmetric);
+      std::vector<double> parts = volumes_of(b, r, i, whole);
+      double& gap = parts.back(); // void gives way first
+      const double taken = std::min(gap, whole - open), left = whole - gap;
+      gap -= taken;
+      const double keep = left > 0 ? (open - gap) / left : 1.0;
+      for (std::size_t m = 0; m + 1 < parts.size(); ++m) {
+        parts[m] *= keep;
+        if (b.materials[m].store.has_row(r)) {
+          b.materials[m].store.row(field::mass, r)[i] *= keep;
+        }
+      }
+      b.volume.row(r)[i] = open;
+      set_volumes(b, r, i, open, parts);
+    }
+  });
+}
+
+/// Volumes that have changed though nothing moved: elements have gone. Void takes their room.
+template <int Dim> static void take_room(Block<Dim>& b, Embedding<Dim>& e) {
+  const Grid& g = b.grid;
+  for (const CutCell<Dim>& c : e.cut) {
+    const int r = c.row, i = c.cell[0];
+    const double open = open_volume(level_cell<Dim>(g, b.position, e.now, c.cell), b.axisymmetric);
+    double& volume = b.volume.row(r)[i];
+    if (std::abs(open - volume) > 1e-12 * c.whole) {
+      const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
+      volume = std::max(open, keeps_of_room * (volume - parts.back()));
+      set_volumes(b, r, i, volume, parts);
+    }
+  }
+}
+
+template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  const Grid& g = b.grid;
+  const std::vector<int> before = e.kind;
+  keep_alive(scene, e);
+  e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), &e.now);
+  find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+  take_room(b, e);
+  for_cells<Dim>(g, [&](int i, int j, int k) { // cells that have come free
+    const int r = g.cell_row(j, k);
+    const std::size_t at = e.cell_at(g, r, i);
+    if (e.kind[at] == open_cell && before[at] != open_cell) {
+      const double whole = whole_volume<Dim>(b, b.position, i, j, k);
+      double& volume = b.volume.row(r)[i];
+      if (std::abs(whole - volume) > 1e-12 * whole) {
+        const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
+        volume = whole;
+        set_volumes(b, r, i, whole, parts);
+      }
+    }
+  });
+  find_roots(b, e);
+}
+
+template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
+  Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
+  const Grid& g = b.grid;
+  e.next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), &e.now);
+  const Levels<Dim>& next = e.next;
+  for_cells<Dim>(g, [&](int i, int j, int k) {
+    if (open_corners<Dim>(g, next, i, j, k) == 1 << Dim) {
+      return;
+    }
+    const LevelCell<Dim> c = level_cell<Dim>(g, b.next_position, next, {i, j, k});
+    const int r = g.cell_row(j, k);
+    double& volume = b.next_volume.row(r)[i];
+    const double open = c.covered() ? 0.0 : open_volume(c, b.axisymmetric), old = b.volume.row(r)[i];
+    if (!holds_mass(b, r, i)) {
+      volume = open > least_open * volume ? open : volume;
+      return;
+    }
+    // Where a body's shape jumps (a face folds, a foot goes elsewhere) what is there neither stretches nor is crushed with it: more room
+    // becomes void in the next step, less is taken bit by bit, and what a body would bury waits for the remap to hand it on.
+    const double gap = b.materials.back().store.row(field::fraction, r)[i], held = (1 - gap) * old;
+    const int kind = e.kind_of(g, r, i);
+    const bool alone = kind >= 0 && is_sliver(e, b, r, i) && e.cut[static_cast<std::size_t>(kind)].root < 0; // no one's material flows after it
+    const double moved = kind >= 0 ? 2 * (e.force[static_cast<std::size_t>(kind)].half.volume - old) : 0.0;
+    const double most = alone ? held * (1 + largest_jump) : std::max(old + moved, held) + largest_jump * std::max(volume, old);
+    volume = open > 0 ? std::clamp(open, keeps_of_room * held, std::max(most, gap > 0 ? open : 0.0)) : old;
+  });
+}
+
+#define BALLAST_INSTANTIATE(D) \
+  template void find_bodies<D>(Scene<D>&, Embedding<D>&); \
+  template void prepare_embedding<D>(Scene<D>&, Embedding<D>&); \
+  template void update_cells<D>(Scene<D>&, Embedding<D>&); \
+  template void embedded_volumes<D>(Scene<D>&, Embedding<D>&);
+BALLAST_INSTANTIATE(2)
+BALLAST_INSTANTIATE(3)
+#undef BALLAST_INSTANTIATE
+
+} // namespace ballast
