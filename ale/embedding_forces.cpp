@@ -127,7 +127,7 @@ template <int Dim> static CutForce<Dim> cut_force(const Scene<Dim>& scene, const
     out.compression = std::max(out.compression, (out.half.volume - volume) / volume);
   }
   // A body does not pull; beside void nothing presses, whatever balances the deviator along the void's surface.
-  const bool hollow = !(b.modulus.row(c.row)[i] > 0);
+  const bool hollow = !(b.modulus.row(c.row)[i] > 0) || is_wisp(b, c);
   const double now = b.pressure.row(c.row)[i], modulus = b.modulus.row(c.row)[i];
   const double pressed = hollow ? -b.reference_pressure : std::max(now - modulus * out.compression, -b.reference_pressure);
   out.compression = hollow ? 0.0 : (now - pressed) / modulus; // the closure works with the pressure that acts

@@ -84,7 +84,7 @@ template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtL
     const int i = c.cell[0];
     const double density = b.density.row(c.row)[i], sound = b.wave_speed.row(c.row)[i], modulus = b.modulus.row(c.row)[i];
     c.viscosity = 0;
-    if (!(density > 0 && modulus > 0)) {
+    if (!(density > 0 && modulus > 0) || is_wisp(b, c)) {
       continue;
     }
     const auto u = corner_velocities<Dim>(g, b.velocity, c.cell);

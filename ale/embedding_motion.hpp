@@ -76,6 +76,12 @@ double opening_rate(const Scene<Dim>& scene, const Embedding<Dim>& e, const CutC
 
 template <int Dim> bool is_sliver(const Block<Dim>& b, const CutCell<Dim>& c) { return b.volume.row(c.row)[c.cell[0]] < sliver_share * c.whole; }
 
+/// A small sliver with no one of its kind beside it presses on nothing: it is on its way into its root's void.
+template <int Dim> bool is_wisp(const Block<Dim>& b, const CutCell<Dim>& c) {
+  constexpr double small = 0.25; // of a whole cell
+  return c.root < 0 && b.volume.row(c.row)[c.cell[0]] < small * c.whole;
+}
+
 /// A cell's room and how much it changes, with its root's if it is a sliver.
 struct Pool {
   double volume, change;

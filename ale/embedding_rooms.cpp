@@ -1,5 +1,7 @@
 // What room bodies leave to cells, and how it comes and goes.
 #include "ale/embedding_cells.hpp"
+#include "ale/phases.hpp"
+#include "ale/traction.hpp"
 
 #include <utility>
 
@@ -8,7 +10,7 @@ namespace ballast {
 namespace {
 
 constexpr double alike = 0.1;            ///< of a root, at least, is what fills most of its sliver
-constexpr double largest_jump = 0.02;    ///< of a cell: what its room may grow beyond what its nodes and the body moved
+constexpr double largest_jump = 0.02;    ///< of its room: what its room may grow beyond what its nodes and the body moved
 constexpr double keeps_of_room = 0.85;   ///< of what a cell's materials fill, at least, when a body takes their room
 
 /// Volumes of the cell's materials become `parts` of `volume`; what is missing is void.
@@ -182,7 +184,7 @@ template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e) 
 }
 
 /// Volumes that have changed though nothing moved: elements have gone. Void takes their room.
-template <int Dim> static void take_room(Block<Dim>& b, Embedding<Dim>& e) {
+template <int Dim> static void take_room(Block<Dim>& b, Embedding<Dim>& e, std::vector<int>& rows) {
   const Grid& g = b.grid;
   for (const CutCell<Dim>& c : e.cut) {
     const int r = c.row, i = c.cell[0];
@@ -192,6 +194,7 @@ template <int Dim> static void take_room(Block<Dim>& b, Embedding<Dim>& e) {
       const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
       volume = std::max(open, keeps_of_room * (volume - parts.back()));
       set_volumes(b, r, i, volume, parts);
+      rows.push_back(r);
     }
   }
 }
@@ -203,7 +206,8 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
   keep_alive(scene, e);
   e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), &e.now);
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
-  take_room(b, e);
+  std::vector<int> rows; // whose state is to be evaluated anew
+  take_room(b, e, rows);
   for_cells<Dim>(g, [&](int i, int j, int k) { // cells that have come free
     const int r = g.cell_row(j, k);
     const std::size_t at = e.cell_at(g, r, i);
@@ -214,9 +218,20 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
         const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
         volume = whole;
         set_volumes(b, r, i, whole, parts);
+        rows.push_back(r);
       }
     }
   });
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  std::vector<double> rho(static_cast<std::size_t>(g.cells[0]));
+  RowRuns runs;
+  for (const int r : rows) {
+    row_state(b, r, runs, rho);
+  }
+  if (!rows.empty()) {
+    update_traction(b, *scene.pool);
+  }
   find_roots(b, e);
 }
 
@@ -243,7 +258,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
     const int kind = e.kind_of(g, r, i);
     const bool alone = kind >= 0 && is_sliver(e, b, r, i) && e.cut[static_cast<std::size_t>(kind)].root < 0; // no one's material flows after it
     const double moved = kind >= 0 ? 2 * (e.force[static_cast<std::size_t>(kind)].half.volume - old) : 0.0;
-    const double most = alone ? held * (1 + largest_jump) : std::max(old + moved, held) + largest_jump * std::max(volume, old);
+    const double most = alone ? held * (1 + largest_jump) : std::max(old + moved, held) + largest_jump * old;
     volume = open > 0 ? std::clamp(open, keeps_of_room * held, std::max(most, gap > 0 ? open : 0.0)) : old;
   });
 }

@@ -168,7 +168,11 @@ template <int Dim> void add_along(std::array<RowField, Dim>& field, const NodeFo
 /// Beside bodies a node that holds next to nothing moves as its heaviest neighbour does, an impact that keeps momentum: a wisp's
 /// pressure would else fling it.
 template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, Block<Dim>& b) {
-  constexpr double wisp = 1e-3; // of that neighbour's mass
+  constexpr double wisp = 1e-3, trace = 1e-9; // of that neighbour's mass; of a cell of the lightest material
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const MaterialSlot& slot : b.materials) {
+    lightest = slot.is_void ? lightest : std::min(lightest, slot.material.density);
+  }
   const Grid& g = b.grid;
   for (const NodeFoot<Dim>& f : e.now.feet) {
     const std::array<int, 3> node = node_of<Dim>(g, f.row, f.index);
@@ -190,7 +194,20 @@ template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, B
         }
       }
     }
-    if (!(mass > 0) || mass > wisp * most) {
+    if (!(mass > 0)) {
+      continue;
+    }
+    const std::array<int, 3> at = {std::min(node[0], g.cells[0] - 1), std::min(node[1], g.cells[1] - 1), Dim == 3 ? std::min(node[2], g.cells[2] - 1) : 0};
+    if (std::max(mass, most) < trace * lightest * b.target_volume.row(g.cell_row(at[1], at[2]))[at[0]]) { // alone: it stops, its momentum in the ledger
+      for (std::size_t d = 0; d < Dim; ++d) {
+        double& u = b.velocity[d].row(f.row)[f.index];
+        scene.ledger.momentum_out[d] += mass * u;
+        scene.ledger.embedded_given += 0.5 * mass * u * u;
+        u = 0;
+      }
+      continue;
+    }
+    if (mass > wisp * most) {
       continue;
     }
     const int r = g.node_row(heavy[1], heavy[2]), i = heavy[0];
