@@ -183,15 +183,23 @@ template <int Dim> void EmbeddedRemap<Dim>::equalise() {
     if (at_rest(members)) {
       continue;
     }
-    double held = 0;
+    // The materials' volumes in the pool, void what is left of its room: more room than they fill is not theirs.
+    double held = 0, rooms = 0;
     for (int m = 0; m < materials(); ++m) {
-      held += std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
+      held += is_void(m) ? 0.0 : std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
     }
+    for (const std::size_t c : members) {
+      rooms += room(c);
+    }
+    const double gap = pool[root].x[static_cast<std::size_t>(offset_.back())];
+    const bool full = held > rooms || (!(gap > 1e-9 * rooms) && held > largest_stretch * rooms);
+    const double scale = full ? rooms / held : 1.0, hollow = full ? 0.0 : rooms - held;
     for (const std::size_t c : members) {
       const double before = mass_of(c);
       if (!valid) {
         for (int m = 0; m < materials(); ++m) {
-          at(c, m, 0) = std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0) / held * room(c);
+          const double v = is_void(m) ? hollow : scale * std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
+          at(c, m, 0) = rooms > 0 ? v / rooms * room(c) : 0.0;
         }
       }
       mass_before_.push_back(before);
