@@ -50,7 +50,6 @@ template <int Dim> struct BodyPushes {
   }
 };
 
-
 } // namespace
 
 template <int Dim> double closing_rate(const Scene<Dim>& scene, const Embedding<Dim>& e, const CutCell<Dim>& c) {

@@ -103,5 +103,4 @@ template <int Dim> Pool pool_of(const Scene<Dim>& scene, const Embedding<Dim>& e
   return pool;
 }
 
-
 } // namespace ballast

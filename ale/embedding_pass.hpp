@@ -155,7 +155,7 @@ private:
   std::vector<std::array<int, 3>> cells_;
   std::vector<Contents> contents_, start_, pool_;
   std::vector<char> pooled_, touched_;
-  std::vector<double> from_volume_, to_volume_, swept_, mass_before_;
+  std::vector<double> from_volume_, to_volume_, swept_;
   std::vector<int> root_, next_root_;
   std::vector<Transfer> transfer_;
 };

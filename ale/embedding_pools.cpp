@@ -156,28 +156,27 @@ template <int Dim> void EmbeddedRemap<Dim>::equalise() {
   std::vector<Contents> pool;
   std::vector<char> pooled;
   pool_contents(next_root_, pool, pooled);
+  std::vector<std::vector<std::size_t>> members_of(cells_.size());
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    members_of[static_cast<std::size_t>(next_root_[c])].push_back(c);
+  }
   for (std::size_t root = 0; root < cells_.size(); ++root) {
+    const std::vector<std::size_t>& members = members_of[root];
     if (pooled[root] == 0) {
       if (next_root_[root] == static_cast<int>(root)) {
-        give_room(root, {root});
+        give_room(root, members);
       }
       continue;
     }
-    std::vector<std::size_t> members;
-    double whole = 0;
     bool valid = true;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      if (static_cast<std::size_t>(next_root_[c]) == root) {
-        members.push_back(c);
-        whole += room(c);
-        double sum = 0;
-        for (int m = 0; m < materials(); ++m) {
-          valid = valid && at(c, m, 0) >= 0;
-          sum += at(c, m, 0);
-        }
-        valid = valid && std::abs(sum - room(c)) <= 0.05 * room(c);
-        valid = valid && (c == root || room(c) > merged_below * whole_of(target_, cells_[c]));
+    for (const std::size_t c : members) {
+      double sum = 0;
+      for (int m = 0; m < materials(); ++m) {
+        valid = valid && at(c, m, 0) >= 0;
+        sum += at(c, m, 0);
       }
+      valid = valid && std::abs(sum - room(c)) <= 0.05 * room(c);
+      valid = valid && (c == root || room(c) > merged_below * whole_of(target_, cells_[c]));
     }
     give_room(root, members);
     if (at_rest(members)) {
@@ -194,15 +193,15 @@ template <int Dim> void EmbeddedRemap<Dim>::equalise() {
     const double gap = pool[root].x[static_cast<std::size_t>(offset_.back())];
     const bool full = held > rooms || (!(gap > 1e-9 * rooms) && held > largest_stretch * rooms);
     const double scale = full ? rooms / held : 1.0, hollow = full ? 0.0 : rooms - held;
+    std::vector<double> mass_before;
     for (const std::size_t c : members) {
-      const double before = mass_of(c);
+      mass_before.push_back(mass_of(c));
       if (!valid) {
         for (int m = 0; m < materials(); ++m) {
           const double v = is_void(m) ? hollow : scale * std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
           at(c, m, 0) = rooms > 0 ? v / rooms * room(c) : 0.0;
         }
       }
-      mass_before_.push_back(before);
     }
     for (int m = 0; m < materials(); ++m) {
       if (is_void(m)) {
@@ -219,9 +218,9 @@ template <int Dim> void EmbeddedRemap<Dim>::equalise() {
         }
       }
     }
-    std::size_t q = mass_before_.size() - members.size();
+    std::size_t q = 0;
     for (const std::size_t c : members) {
-      const double change = mass_of(c) - mass_before_[q++];
+      const double change = mass_of(c) - mass_before[q++];
       if (c != root && change != 0) {
         transfer_.push_back({change > 0 ? static_cast<int>(root) : static_cast<int>(c), change > 0 ? static_cast<int>(c) : static_cast<int>(root), std::abs(change)});
       }

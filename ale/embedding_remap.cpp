@@ -192,7 +192,7 @@ template <int Dim> void EmbeddedRemap<Dim>::find_roots(const Config& config, con
 template <int Dim> void EmbeddedRemap<Dim>::split(std::size_t c, std::size_t axis, bool high, double volume, std::vector<double>& out) const {
   out.assign(static_cast<std::size_t>(materials()), 0.0);
   const auto root = static_cast<std::size_t>(root_[c]);
-  if (root != c || pooled_[c] != 0) {
+  if (root != c) { // a sliver gives of its pool's mixture
     double all = 0;
     for (int m = 0; m < materials(); ++m) {
       all += std::max(pool_[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
@@ -200,14 +200,11 @@ template <int Dim> void EmbeddedRemap<Dim>::split(std::size_t c, std::size_t axi
     for (int m = 0; m < materials() && all > 0; ++m) {
       out[static_cast<std::size_t>(m)] = volume * std::max(pool_[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0) / all;
     }
-    if (root != c) {
-      return;
-    }
+    return;
   }
   const std::array<int, 3>& cell = cells_[c];
   const int r = g_.cell_row(cell[1], cell[2]);
   const auto parts = remap::reconstruct_cell<Dim>(g_, mesh_->materials, settings_.normal, r, cell[0]);
-  out.assign(static_cast<std::size_t>(materials()), 0.0);
   if (parts.count == 1) {
     out[static_cast<std::size_t>(parts.present[0])] = volume;
     return;
@@ -225,7 +222,6 @@ template <int Dim> void EmbeddedRemap<Dim>::split(std::size_t c, std::size_t axi
 
 template <int Dim> void EmbeddedRemap<Dim>::move_through_faces() {
   pool_contents(root_, pool_, pooled_);
-  const std::vector<Contents> before = contents_;
   struct Crossing {
     std::size_t from, to;
     std::vector<double> volume;

@@ -328,12 +328,8 @@ constexpr int most_retries = 30;
 
 template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
   std::vector<BoundaryEffect> effects(scene.blocks.size());
-  std::vector<Layers<Dim>> layers; // as they were
-  Ledger ledger;
-  if (!scene.embedded.empty()) {
-    layers = scene.layers;
-    ledger = scene.ledger;
-  }
+  const std::vector<Layers<Dim>> layers = scene.embedded.empty() ? std::vector<Layers<Dim>>{} : scene.layers; // as they were
+  const Ledger ledger = scene.ledger;
   for (int attempt = 0;; ++attempt) {
     WorstCell worst;
     std::size_t where = 0;

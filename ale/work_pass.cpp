@@ -276,8 +276,9 @@ void advance_row(Scene<Dim>& scene,
                    force_coefficients(b, scene.numerics, dt),
                    cells.count(),
                    buffer.rows.from(cells.begin));
-  if (const Embedding<Dim>* e = embedding_of(scene, b)) {
-    override_work(scene, *e, j, k, dt, buffer.rows);
+  const Embedding<Dim>* embedded = embedding_of(scene, b);
+  if (embedded != nullptr) {
+    override_work(scene, *embedded, j, k, dt, buffer.rows);
   }
   buffer.runs.scan(b.owner_row(r), cells);
   for (const RowRuns::Run& run : buffer.runs.pure) {
@@ -293,7 +294,6 @@ void advance_row(Scene<Dim>& scene,
   }
   const std::int8_t* owner = b.owner_row(r);
   auto q = static_cast<std::size_t>(std::count(owner, owner + cells.begin, mixed_cell)); // of the row's normals
-  const Embedding<Dim>* embedded = embedding_of(scene, b);
   for (const int i : buffer.runs.mixed) {
     if (embedded != nullptr && is_sliver(*embedded, b, r, i)) {
       ++q;
