@@ -275,6 +275,7 @@ template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e) {
   }
   for (std::size_t s = 0; s < scene.layers.size(); ++s) {
     Layers<Dim>& l = scene.layers[s];
+    l.load.spread(l.stack.node_count());
     const std::vector<unsigned char> held = held_nodes(l.stack);
     for (std::size_t at = 0; at < l.load.node.size(); ++at) {
       const std::size_t n = l.load.node[at];

@@ -83,7 +83,7 @@ template <int Dim> void touch_blocks(Layers<Dim>& l, std::vector<std::vector<Blo
           continue;
         }
         ContactSurface<Dim> bullet = surface_at(sides[s], dt, done);
-        ContactSurface<Dim> fabric = layer_surface(l.stack, l.stack.velocity, static_cast<int>(layer), !above, l.slidelines.held);
+        ContactSurface<Dim> fabric = layer_surface(l.stack, l.stack.velocity, static_cast<int>(layer), !above, l.slidelines.held, &l.load);
         const ContactReport report = resolve_contact(bullet, fabric, h, l.contact, l.with_blocks[pair], &pool);
         tell_twins(sides, s);
         book(l.ledger, report);
@@ -94,7 +94,7 @@ template <int Dim> void touch_blocks(Layers<Dim>& l, std::vector<std::vector<Blo
 
 template <int Dim> void touch(Layers<Dim>& l, std::vector<std::vector<BlockSurface<Dim>>>& blocks, double dt, double done, double h, ThreadPool& pool) {
   const Stopwatch watch(l.contact_seconds);
-  const SlidelineReport report = resolve_slidelines(l.stack, h, l.stack.velocity, pool, l.contact, l.slidelines);
+  const SlidelineReport report = resolve_slidelines(l.stack, h, l.stack.velocity, pool, l.contact, l.slidelines, &l.load);
   touch_blocks(l, blocks, dt, done, h, pool); // last: what is heaviest has the last word in a step
   book(l.ledger, report.contact);
   l.closing = std::max(l.closing, report.closing_share);

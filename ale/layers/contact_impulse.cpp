@@ -1,6 +1,7 @@
 // Impulses of a pair of surfaces whose feet are known: the method is ale/layers/contact.hpp's.
 #include "ale/layers/contact_parts.hpp"
 #include "ale/layers/contact_vector.hpp"
+#include "ale/layers/layer_load.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,19 @@ template <int Dim> using Surfaces = std::array<ContactSurface<Dim>*, 2>;
 /// What the opening of a node has to be at least.
 double asked_opening(double gap, double opening, double dt, double push_out) {
   return gap >= 0 ? -gap / dt : std::min(push_out * -gap / dt, std::max(0.0, -opening));
+}
+
+template <int Dim> Eigen::Matrix<double, Dim, Dim> added_mass(const ContactSurface<Dim>& s, int node) {
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+  return s.added != nullptr ? Matrix(s.added + node * Dim * Dim) : Matrix::Zero();
+}
+
+/// Change of a node's velocity by an impulse on it and on what moves with it.
+template <int Dim> Vec<Dim> response(const ContactSurface<Dim>& s, int node, const Vec<Dim>& impulse) {
+  const auto change = pushed<Dim>(s.mass[node], added_mass(s, node), Eigen::Matrix<double, Dim, 1>(impulse.data()), s.held != nullptr ? s.held[node] : 0U);
+  Vec<Dim> out;
+  std::copy(change.data(), change.data() + Dim, out.begin());
+  return out;
 }
 
 template <int Dim> class Solver {
@@ -135,8 +149,16 @@ private:
       p.per_slip = std::max(p.per_slip, w);
       p.fixed += p.normal[d] * u;
     }
+    if (loaded()) {
+      p.per_impulse = a.weight * dot(p.normal, response<Dim>(a, p.node, p.normal));
+      for (std::size_t c = 0; c < p.corners; ++c) {
+        p.per_impulse += p.share[c] * p.share[c] * b.weight * dot(p.normal, response<Dim>(b, p.corner[c], p.normal));
+      }
+    }
     return p;
   }
+
+  bool loaded() const { return surfaces_[0]->added != nullptr || surfaces_[1]->added != nullptr; }
 
   void restore_velocities() {
     for (std::size_t s = 0; s < 2; ++s) {
@@ -203,6 +225,19 @@ private:
     touch(p.side, p.node);
     for (const int c : p.corner) {
       touch(1 - p.side, c);
+    }
+    if (loaded()) {
+      const Vec<Dim> own = response<Dim>(a, p.node, impulse);
+      for (std::size_t d = 0; d < Dim; ++d) {
+        a.velocity[d][p.node] += own[d];
+      }
+      for (std::size_t c = 0; c < p.corners; ++c) {
+        const Vec<Dim> other = response<Dim>(b, p.corner[c], impulse);
+        for (std::size_t d = 0; d < Dim; ++d) {
+          b.velocity[d][p.corner[c]] -= p.share[c] * other[d];
+        }
+      }
+      return;
     }
     for (std::size_t d = 0; d < Dim; ++d) {
       a.velocity[d][p.node] += impulse[d] * p.gives[d];
@@ -295,8 +330,15 @@ private:
         if (state_.touched[s][n] == 0) {
           continue;
         }
+        const auto added = added_mass(a, node);
+        Eigen::Matrix<double, Dim, 1> gained;
         for (std::size_t d = 0; d < Dim; ++d) {
-          const double change = a.mass[node] * (a.velocity[d][node] - state_.before[s][d][n]);
+          gained[static_cast<Eigen::Index>(d)] = a.velocity[d][node] - state_.before[s][d][n];
+        }
+        const Eigen::Matrix<double, Dim, 1> carried = added * gained;
+        for (std::size_t d = 0; d < Dim; ++d) {
+          const auto at = static_cast<Eigen::Index>(d);
+          const double change = a.mass[node] * gained[at] + carried[at];
           report.loss -= change * mean_velocity(s, d, node);
           report.impulse_sum[d] += held ? change : 0;
         }

@@ -25,6 +25,7 @@ template <int Dim> struct ContactSurface {
   int outside = 1;                               ///< 1 or -1
   const char* alive = nullptr;                   ///< by segment, 0: a hole; none: all are there
   const unsigned char* held = nullptr;           ///< by node, bit d: no velocity along axis d; none: all free
+  const double* added = nullptr;                 ///< kg, by node Dim x Dim, symmetric: mass that moves with it in some directions only (ale/layers/layer_load); or none
 
   double fixed_at(std::size_t d, int node) const { return fixed[d] != nullptr ? fixed[d][node] : 0.0; }
   int nodes_along(int axis) const { return axis < Dim - 1 ? segments[static_cast<std::size_t>(axis)] + 1 : 1; }

@@ -1,5 +1,7 @@
 #include "ale/layers/layer_folds.hpp"
 
+#include "ale/layers/layer_load.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,8 +19,30 @@ struct FoldEdge {
   double shortest = 0;      ///< m
 };
 
+/// What an impulse along the edge, as large as takes `excess`, does where masses hang on its nodes.
+template <int Dim>
+bool stop_loaded_edge(LayerStack<Dim>& s, const FoldEdge& e, const std::array<double, Dim>& along, double excess, const std::vector<unsigned char>& held, const LayerLoad<Dim>& load,
+                      std::array<double, 3>& outside) {
+  using Vector = typename LayerLoad<Dim>::Vector;
+  const Vector t(along.data());
+  const Vector give_a = pushed<Dim>(s.mass[e.a], load.by_node[e.a], t, held[e.in_plane]), give_b = pushed<Dim>(s.mass[e.b], load.by_node[e.b], t, held[e.in_plane + e.to]);
+  const double per_impulse = t.dot(give_a + give_b);
+  if (!(per_impulse > 0)) {
+    return false;
+  }
+  const double impulse = excess / per_impulse;
+  const Vector a = impulse * give_a, b = impulse * give_b, taken = s.mass[e.b] * b + load.by_node[e.b] * b - s.mass[e.a] * a - load.by_node[e.a] * a;
+  for (int d = 0; d < Dim; ++d) {
+    const auto at = static_cast<std::size_t>(d);
+    s.velocity[at][e.a] -= a[d];
+    s.velocity[at][e.b] += b[d];
+    outside[at] += taken[d];
+  }
+  return true;
+}
+
 /// Takes the velocity with which the edge closes below its shortest length; true where there was any.
-template <int Dim> bool stop_edge(LayerStack<Dim>& s, const FoldEdge& e, double dt, const std::vector<unsigned char>& held, std::array<double, 3>& outside) {
+template <int Dim> bool stop_edge(LayerStack<Dim>& s, const FoldEdge& e, double dt, const std::vector<unsigned char>& held, const LayerLoad<Dim>* load, std::array<double, 3>& outside) {
   std::array<double, Dim> along;
   double square = 0, closing = 0;
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -34,10 +58,15 @@ template <int Dim> bool stop_edge(LayerStack<Dim>& s, const FoldEdge& e, double 
   if (!(excess > 0)) {
     return false;
   }
+  for (double& a : along) {
+    a /= length;
+  }
+  if (load != nullptr && !load->by_node.empty()) {
+    return stop_loaded_edge<Dim>(s, e, along, excess, held, *load, outside);
+  }
   double per_impulse = 0;
   std::array<double, Dim> give_a, give_b;
   for (std::size_t d = 0; d < Dim; ++d) {
-    along[d] /= length;
     give_a[d] = (held[e.in_plane] >> d & 1) != 0 ? 0.0 : 1 / s.mass[e.a];
     give_b[d] = (held[e.in_plane + e.to] >> d & 1) != 0 ? 0.0 : 1 / s.mass[e.b];
     per_impulse += along[d] * along[d] * (give_a[d] + give_b[d]);
@@ -65,7 +94,7 @@ template <int Dim> bool in_cloth(const LayerStack<Dim>& s, int axis, int i, int 
   return (at > 0 && there(at - 1)) || (at <= last && there(at));
 }
 
-template <int Dim> bool sweep_plane(LayerStack<Dim>& s, int plane, double dt, const std::vector<unsigned char>& held, std::array<double, 3>& outside) {
+template <int Dim> bool sweep_plane(LayerStack<Dim>& s, int plane, double dt, const std::vector<unsigned char>& held, const LayerLoad<Dim>* load, std::array<double, 3>& outside) {
   const int n1 = s.grid.nodes_along(0), n2 = Dim == 3 ? s.grid.nodes_along(1) : 1;
   bool any = false;
   for (int axis = 0; axis < Dim - 1; ++axis) {
@@ -77,7 +106,7 @@ template <int Dim> bool sweep_plane(LayerStack<Dim>& s, int plane, double dt, co
         if (!in_cloth(s, axis, i, j, plane)) {
           continue;
         }
-        any = stop_edge(s, {a, a + to, s.node(i, j, 0), to, s.guard.shortest * (lines[k + 1] - lines[k])}, dt, held, outside) || any;
+        any = stop_edge(s, {a, a + to, s.node(i, j, 0), to, s.guard.shortest * (lines[k + 1] - lines[k])}, dt, held, load, outside) || any;
       }
     }
   }
@@ -86,14 +115,14 @@ template <int Dim> bool sweep_plane(LayerStack<Dim>& s, int plane, double dt, co
 
 } // namespace
 
-template <int Dim> void stop_folds(LayerStack<Dim>& s, double dt, const std::vector<unsigned char>& held, LayerLedger& ledger, ThreadPool& pool) {
+template <int Dim> void stop_folds(LayerStack<Dim>& s, double dt, const std::vector<unsigned char>& held, LayerLedger& ledger, ThreadPool& pool, const LayerLoad<Dim>* load) {
   if (!(s.guard.shortest > 0)) {
     return;
   }
   std::vector<std::array<double, 3>> outside(static_cast<std::size_t>(s.grid.planes()), {0, 0, 0}); // summed in order: the same bits for any threads
   parallel_ranges(pool, s.grid.planes(), [&](int begin, int end, int) {
     for (int plane = begin; plane < end; ++plane) {
-      for (int sweep = 0; sweep < sweeps && sweep_plane(s, plane, dt, held, outside[static_cast<std::size_t>(plane)]); ++sweep) {
+      for (int sweep = 0; sweep < sweeps && sweep_plane(s, plane, dt, held, load, outside[static_cast<std::size_t>(plane)]); ++sweep) {
       }
     }
   });
@@ -104,7 +133,7 @@ template <int Dim> void stop_folds(LayerStack<Dim>& s, double dt, const std::vec
   }
 }
 
-template void stop_folds<2>(LayerStack<2>&, double, const std::vector<unsigned char>&, LayerLedger&, ThreadPool&);
-template void stop_folds<3>(LayerStack<3>&, double, const std::vector<unsigned char>&, LayerLedger&, ThreadPool&);
+template void stop_folds<2>(LayerStack<2>&, double, const std::vector<unsigned char>&, LayerLedger&, ThreadPool&, const LayerLoad<2>*);
+template void stop_folds<3>(LayerStack<3>&, double, const std::vector<unsigned char>&, LayerLedger&, ThreadPool&, const LayerLoad<3>*);
 
 } // namespace ballast

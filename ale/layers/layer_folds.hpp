@@ -10,8 +10,11 @@
 
 namespace ballast {
 
+template <int Dim> struct LayerLoad;
+
 /// Changes velocities so that no edge in the plane of a layer closes below its shortest length in a step of dt (s); one that is
-/// shorter closes no further. `held` as of held_nodes; what held nodes take goes to the ledger's edge_impulse. The same bits for any pool.
-template <int Dim> void stop_folds(LayerStack<Dim>& stack, double dt, const std::vector<unsigned char>& held, LayerLedger& ledger, ThreadPool& pool);
+/// shorter closes no further. `held` as of held_nodes; what held nodes take goes to the ledger's edge_impulse. `load`: what moves with nodes, or null. The same bits for any pool.
+template <int Dim>
+void stop_folds(LayerStack<Dim>& stack, double dt, const std::vector<unsigned char>& held, LayerLedger& ledger, ThreadPool& pool, const LayerLoad<Dim>* load = nullptr);
 
 } // namespace ballast

@@ -20,7 +20,16 @@ template <int Dim> struct LayerLoad {
   std::vector<Matrix> added;     ///< kg
   std::vector<Vector> own;       ///< N: the elements' own force, where `force` of the stack is not it
 
+  std::vector<Matrix> by_node;   ///< kg: `added` by node of the stack, as impulses look it up (spread); empty if none is loaded
+
   bool empty() const { return node.empty(); }
+  /// Fills by_node from the lists.
+  void spread(std::size_t node_count) {
+    by_node.assign(node.empty() ? 0 : node_count, Matrix::Zero());
+    for (std::size_t q = 0; q < node.size(); ++q) {
+      by_node[node[q]] = added[q];
+    }
+  }
   /// Added mass of a node along a unit vector; none if it is not loaded.
   double mass_along(std::size_t n, const std::array<double, Dim>& along) const {
     const auto at = std::lower_bound(node.begin(), node.end(), n);

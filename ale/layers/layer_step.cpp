@@ -78,7 +78,7 @@ template <int Dim> void stop_at_axis(LayerStack<Dim>& s, double dt) {
 template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact, LayerLoad<Dim>* load) {
   kick(s, dt / 2, ledger, pool);
   keep_velocity(s);
-  stop_folds(s, dt, held_nodes(s), ledger, pool);
+  stop_folds<Dim>(s, dt, held_nodes(s), ledger, pool, load);
   if (contact) {
     contact();
   }

@@ -1,5 +1,7 @@
 #include "ale/layers/slideline.hpp"
 
+#include "ale/layers/layer_load.hpp"
+
 #include <algorithm>
 
 namespace ballast {
@@ -29,7 +31,8 @@ template <int Dim> double layer_thickness(const LayerStack<Dim>& stack, int laye
 } // namespace
 
 template <int Dim>
-ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held) {
+ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held,
+                                  const LayerLoad<Dim>* load) {
   const LayerGrid& g = stack.grid;
   const int plane = layer * (g.through + 1) + (upper ? g.through : 0), level = layer * g.through + (upper ? g.through - 1 : 0);
   const std::size_t first = stack.node(0, 0, plane);
@@ -46,12 +49,13 @@ ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Di
   s.rim = layer_rim;
   s.alive = stack.alive.data() + stack.element(0, 0, level);
   s.held = held.data();
+  s.added = load != nullptr && !load->by_node.empty() ? load->by_node[first].data() : nullptr;
   return s;
 }
 
 template <int Dim>
 SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, LayerVelocity<Dim>& velocity, ThreadPool& pool, const ContactSettings& settings,
-                                   SlidelineState<Dim>& state) {
+                                   SlidelineState<Dim>& state, const LayerLoad<Dim>* load) {
   const auto count = static_cast<std::size_t>(stack.grid.layers - 1);
   const bool fresh = state.pairs.size() != count;
   if (fresh) {
@@ -61,7 +65,7 @@ SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, Laye
   std::vector<std::array<ContactSurface<Dim>, 2>> surfaces(count);
   for (std::size_t p = 0; p < count; ++p) {
     const int layer = static_cast<int>(p);
-    surfaces[p] = {layer_surface(stack, velocity, layer, true, state.held), layer_surface(stack, velocity, layer + 1, false, state.held)};
+    surfaces[p] = {layer_surface(stack, velocity, layer, true, state.held, load), layer_surface(stack, velocity, layer + 1, false, state.held, load)};
     state.pairs[p].resize({&surfaces[p][0], &surfaces[p][1]});
     for (std::size_t s = 0; s < 2 && fresh; ++s) {
       start_track(surfaces[p][1 - s], state.pairs[p].tracks[s]);
@@ -100,8 +104,8 @@ SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, Laye
 }
 
 #define BALLAST_INSTANTIATE(D)                                                                                                   \
-  template ContactSurface<D> layer_surface<D>(const LayerStack<D>&, LayerVelocity<D>&, int, bool, const std::vector<unsigned char>&); \
-  template SlidelineReport resolve_slidelines<D>(const LayerStack<D>&, double, LayerVelocity<D>&, ThreadPool&, const ContactSettings&, SlidelineState<D>&);
+  template ContactSurface<D> layer_surface<D>(const LayerStack<D>&, LayerVelocity<D>&, int, bool, const std::vector<unsigned char>&, const LayerLoad<D>*); \
+  template SlidelineReport resolve_slidelines<D>(const LayerStack<D>&, double, LayerVelocity<D>&, ThreadPool&, const ContactSettings&, SlidelineState<D>&, const LayerLoad<D>*);
 BALLAST_INSTANTIATE(2)
 BALLAST_INSTANTIATE(3)
 #undef BALLAST_INSTANTIATE

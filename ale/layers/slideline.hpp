@@ -16,6 +16,8 @@ namespace ballast {
 /// By axis, of all nodes of the stack; Dim follows from the stack.
 template <int Dim> using LayerVelocity = std::type_identity_t<std::array<std::vector<double>, Dim>>;
 
+template <int Dim> struct LayerLoad;
+
 template <int Dim> struct SlidelineState {
   std::vector<ContactState<Dim>> pairs; ///< from the lowest
   std::vector<unsigned char> held;      ///< by node of a plane
@@ -28,9 +30,10 @@ struct SlidelineReport {
   double closing_share = 0;   ///< largest approach in the step by the thinner layer's thickness at rest: much below 1 in a sound step
 };
 
-/// The surface of a layer that faces up or down; `velocity`: the one that moves nodes in the step.
+/// The surface of a layer that faces up or down; `velocity`: the one that moves nodes in the step; `load`: what moves with them, or null.
 template <int Dim>
-ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held);
+ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Dim>& velocity, int layer, bool upper, const std::vector<unsigned char>& held,
+                                  const LayerLoad<Dim>* load = nullptr);
 
 /// Changes `velocity` (v + dt/2 a with a = force/mass, of all nodes) so that x + dt velocity has no layer inside its neighbour. A new `state`
 /// takes every node to stand over the same node of its neighbour. Losses are those of the layers' account
@@ -38,6 +41,6 @@ ContactSurface<Dim> layer_surface(const LayerStack<Dim>& stack, LayerVelocity<Di
 /// Same bits for any number of threads.
 template <int Dim>
 SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, LayerVelocity<Dim>& velocity, ThreadPool& pool, const ContactSettings& settings,
-                                   SlidelineState<Dim>& state);
+                                   SlidelineState<Dim>& state, const LayerLoad<Dim>* load = nullptr);
 
 } // namespace ballast
