@@ -106,6 +106,9 @@ template <int Dim> bool find_tie(const Block<Dim>& b, const std::array<int, 3>& 
     f.tie[d] = length > 0 ? f.tie[d] / length : 0.0;
     f.carry[d] = length > 0 ? f.foot.normal[d] / length : 0.0; // n.tie = length
   }
+  if (b.axisymmetric && b.position[0].row(f.row)[f.index] == 0) { // around it the surface's normals cancel but for the axis' own
+    f.carry = f.tie;
+  }
   return length > least_along_wall;
 }
 
