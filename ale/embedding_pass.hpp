@@ -41,7 +41,13 @@ private:
   };
 
   std::size_t dense(const std::array<int, 3>& c) const { return e_.cell_at(g_, g_.cell_row(c[1], c[2]), c[0]); }
-  bool inside(const std::array<int, 3>& c) const;
+  bool inside(const std::array<int, 3>& c) const {
+    bool in = true;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      in = in && c[d] >= 0 && c[d] < g_.cells[d];
+    }
+    return in;
+  }
   double at(std::size_t c, int material, int field) const { return contents_[c].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(material)] + field)]; }
   double& at(std::size_t c, int material, int field) { return contents_[c].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(material)] + field)]; }
   int materials() const { return static_cast<int>(b_.materials.size()); }
@@ -105,6 +111,9 @@ private:
 
   /// What was drawn from a pool is settled in one: who shared a root still does.
   void keep_pools();
+
+  /// A trace of a material goes to the neighbour that has most of it.
+  void hand_on_wisps();
 
   /// What has no room left goes to its root; where there is none, it stays as a pocket until there is.
   void bury();

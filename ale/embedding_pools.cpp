@@ -5,7 +5,8 @@ namespace ballast {
 
 namespace {
 
-constexpr double nothing = 1e-12;    ///< of a cell at reference density: a material's trace that is dropped, with an entry
+constexpr double nothing = 1e-10;    ///< of a cell at reference density: a material's trace that is dropped, with an entry
+constexpr double wisp = 1e-6;        ///< likewise: what goes on to a neighbour that has more of it
 constexpr double merged_below = 0.25; ///< of a whole cell: smaller slivers hold the same mixture as their root, void and all
 constexpr double largest_stretch = 0.98; ///< of a cell's room: less than that is a void
 
@@ -21,6 +22,7 @@ template <int Dim> void EmbeddedRemap<Dim>::pool() {
   for (std::size_t c = 0; c < cells_.size(); ++c) { // as they are, but for what has no room
     to_volume_[c] = lag_.kind[dense(cells_[c])] == covered_cell ? 0.0 : from_volume_[c];
   }
+  hand_on_wisps();
   find_roots(target_, to_volume_, next_root_);
   bury();
   equalise();
@@ -110,6 +112,44 @@ template <int Dim> void EmbeddedRemap<Dim>::bury() {
       touched_[root] = touched_[c] = 1;
     }
     next_root_[c] = static_cast<int>(c);
+  }
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::hand_on_wisps() {
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    for (int m = 0; m < materials(); ++m) {
+      const double mass = is_void(m) ? 0.0 : at(c, m, 1);
+      if (!(mass > 0) || !(room(c) > 0) || mass >= wisp * b_.materials[static_cast<std::size_t>(m)].material.density * room(c)) {
+        continue;
+      }
+      double most = 10 * mass;
+      auto to = c;
+      for (std::size_t axis = 0; axis < Dim; ++axis) {
+        for (const int side : {-1, 1}) {
+          std::array<int, 3> n = cells_[c];
+          n[axis] += side;
+          if (!inside(n) || place_[dense(n)] < 0 || !(aperture(target_, axis, side < 0 ? cells_[c] : n) > 0)) {
+            continue;
+          }
+          const auto q = static_cast<std::size_t>(place_[dense(n)]);
+          if (at(q, m, 1) > most && room(q) > 0) {
+            most = at(q, m, 1);
+            to = q;
+          }
+        }
+      }
+      if (to == c) {
+        continue;
+      }
+      at(c, materials() - 1, 0) += at(c, m, 0);
+      at(to, materials() - 1, 0) = std::max(0.0, at(to, materials() - 1, 0) - at(c, m, 0));
+      for (int f = 0; f < fields(m); ++f) {
+        at(to, m, f) += at(c, m, f);
+        at(c, m, f) = 0;
+      }
+      transfer_.push_back({static_cast<int>(c), static_cast<int>(to), mass});
+      touched_[c] = touched_[to] = 1;
+    }
   }
 }
 
@@ -312,6 +352,8 @@ template void EmbeddedRemap<2>::settle();
 template void EmbeddedRemap<3>::settle();
 template void EmbeddedRemap<2>::keep_pools();
 template void EmbeddedRemap<3>::keep_pools();
+template void EmbeddedRemap<2>::hand_on_wisps();
+template void EmbeddedRemap<3>::hand_on_wisps();
 template void EmbeddedRemap<2>::bury();
 template void EmbeddedRemap<3>::bury();
 template bool EmbeddedRemap<2>::at_rest(const std::vector<std::size_t>& members) const;

@@ -25,21 +25,13 @@ template <int Dim> void EmbeddedRemap<Dim>::run() {
   find_roots(lag_, from_volume_, root_);
   move_through_faces();
   settle();
+  hand_on_wisps();
   find_roots(target_, to_volume_, next_root_);
   keep_pools();
   bury();
   equalise();
   scatter();
   move_momentum();
-}
-
-template <int Dim> bool EmbeddedRemap<Dim>::inside(const std::array<int, 3>& c) const {
-  for (std::size_t d = 0; d < Dim; ++d) {
-    if (c[d] < 0 || c[d] >= g_.cells[d]) {
-      return false;
-    }
-  }
-  return true;
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::find_levels_on_the_way() {
