@@ -183,6 +183,7 @@ void read_methods(Context c, const Section& in, LayersSpec& out) {
   out.guard.shortest = in.number("shortest", out.guard.shortest);
   out.guard.volume = in.number("least_volume", out.guard.volume);
   out.guard.torn = in.number("erode_volume", out.guard.torn);
+  out.guard.either = in.has("erode_when") && in.node("erode_when")->text == "either";
   out.viscosity.quadratic = in.number("quadratic_q", out.viscosity.quadratic);
   out.viscosity.linear = in.number("linear_q", out.viscosity.linear);
   out.cfl = in.number("cfl", out.cfl);

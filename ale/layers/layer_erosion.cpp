@@ -4,13 +4,8 @@ namespace ballast {
 namespace {
 
 template <int Dim> bool is_lost(const LayerStack<Dim>& s, const std::array<double, 2>& at, std::size_t e) {
-  bool lost = true;
-  for (std::size_t point = 0; point < 2 && lost; ++point) {
-    for (std::size_t family = 0; family < 2 && lost; ++family) {
-      lost = s.largest[point][family][e] >= at[family];
-    }
-  }
-  return lost;
+  const auto family_lost = [&](std::size_t f) { return s.largest[0][f][e] >= at[f] && s.largest[1][f][e] >= at[f]; };
+  return s.guard.either ? family_lost(0) || family_lost(1) : family_lost(0) && family_lost(1);
 }
 
 /// Does an element still hang on another of its layer?
@@ -59,7 +54,7 @@ template <int Dim> void erode(LayerStack<Dim>& s, const std::array<double, 2>& l
       }
     }
   }
-  if (s.guard.torn > 0 && s.grid.elements[0] * s.grid.elements[1] > 1) {
+  if ((s.guard.torn > 0 || s.guard.either) && s.grid.elements[0] * s.grid.elements[1] > 1) {
     erode_islands(s, ledger);
   }
 }

@@ -1,4 +1,4 @@
-// Erosion of fabric layers: holes where both families of yarns are lost.
+// Erosion of fabric layers: holes where both families of yarns are lost, or either (LayerGuard::either).
 #pragma once
 
 #include "ale/layers/layer_stack.hpp"
@@ -7,7 +7,7 @@
 
 namespace ballast {
 
-/// Erodes a layer where all its elements through the thickness have lost both families: it has a hole then, seen from both sides. lost_at: the Green
+/// Erodes a layer where all its elements through the thickness have lost what it takes: it has a hole then, seen from both sides. lost_at: the Green
 /// strains at which warp and fill are. Books what goes; its mass stays at its nodes.
 template <int Dim> void erode(LayerStack<Dim>& stack, const std::array<double, 2>& lost_at, LayerLedger& ledger);
 

@@ -46,6 +46,7 @@ struct LayerGuard {
   double shortest = 0.2; ///< of its length at rest: an edge in the plane closes no further, an impact (ale/layers/layer_folds); 0: no end
   double volume = 0.1;   ///< of that at rest, in the middle of both surfaces: pressure K (volume/J - 1) below, K the thickness' modulus of LayerHourglass; 0: none
   double torn = 0;       ///< of that at rest: an element pressed to less is taken as torn through and erodes; 0: never
+  bool either = false;   ///< an element erodes once either family of yarns is lost, else when both are
 };
 
 /// How the elements of a stack lie side by side.
