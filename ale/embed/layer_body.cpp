@@ -51,6 +51,33 @@ Padding padding(double least, double left, double lost_below, double lost_above)
   return {need * share, need * (1 - share)};
 }
 
+/// Nodes of one plane that make a stretch of a face, and a column it belongs to.
+struct Run {
+  int plane, column, first, last;
+};
+
+/// The node of the inner run's plane that is nearest to where the outer run's plane ends at node k, on what is left of its layer.
+int nearest_node(const LayerStack<2>& s, const std::vector<char>& alive, const Run& inner, const Run& outer, int k, bool lower) {
+  // The side of the outer layer that faces the inner one.
+  const int facing = outer.plane + (lower ? s.grid.through : -s.grid.through);
+  const std::size_t edge = s.node(k, 0, facing);
+  const int layer = inner.plane / (s.grid.through + 1), level = layer * s.grid.through;
+  const auto square = [&](int i) {
+    const std::size_t n = s.node(i, 0, inner.plane);
+    return (s.position[0][n] - s.position[0][edge]) * (s.position[0][n] - s.position[0][edge]) + (s.position[1][n] - s.position[1][edge]) * (s.position[1][n] - s.position[1][edge]);
+  };
+  int at = k;
+  for (const int step : {-1, 1}) {
+    for (int i = k + step; i >= 0 && i <= s.grid.elements[0]; i += step) {
+      if (alive[s.element(step < 0 ? i : i - 1, 0, level)] == 0 || square(i) >= square(at)) {
+        break;
+      }
+      at = i;
+    }
+  }
+  return at;
+}
+
 } // namespace
 
 /// Around each run of columns: along the lower faces, up the rim, back along the upper ones; the body lies to the left.
@@ -71,6 +98,31 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
     vertices_.push_back(v);
     return static_cast<int>(vertices_.size()) - 1;
   };
+  // Of the columns from begin to end, the nodes of one face. Where it steps from one layer to another, whose nodes may have slid away from
+  // each other, the inner layer's face goes on or ends at its node nearest to the outer one's edge.
+  const auto chain = [&](int begin, int end, bool lower) {
+    std::vector<Run> runs;
+    for (int i = begin; i < end; ++i) {
+      const Column& c = columns[static_cast<std::size_t>(i)];
+      const int plane = lower ? s.plane_below(c.first) : s.plane_below(c.last) + 1;
+      if (runs.empty() || runs.back().plane != plane) {
+        runs.push_back({plane, i, i, i});
+      }
+      runs.back().last = i + 1;
+    }
+    for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
+      Run &left = runs[r], &right = runs[r + 1];
+      const bool left_is_inner = lower ? left.plane > right.plane : left.plane < right.plane;
+      (left_is_inner ? left.last : right.first) = nearest_node(s, alive, left_is_inner ? left : right, left_is_inner ? right : left, right.column, lower);
+    }
+    std::vector<int> out;
+    for (const Run& run : runs) {
+      for (int i = run.first; i <= std::max(run.first, run.last); ++i) {
+        out.push_back(vertex(i, run.plane, lower, columns[static_cast<std::size_t>(run.column)]));
+      }
+    }
+    return out;
+  };
   for (int begin = 0; begin < n;) {
     if (columns[static_cast<std::size_t>(begin)].empty()) {
       ++begin;
@@ -80,21 +132,7 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
     while (end < n && !columns[static_cast<std::size_t>(end)].empty()) {
       ++end;
     }
-    std::vector<int> lower, upper; // along i
-    for (int i = begin; i < end; ++i) {
-      const Column& c = columns[static_cast<std::size_t>(i)];
-      const int low = s.plane_below(c.first), high = s.plane_below(c.last) + 1;
-      for (const int at : {i, i + 1}) {
-        if (lower.empty() || vertices_[static_cast<std::size_t>(lower.back())].node != s.node(at, 0, low)) {
-          lower.push_back(vertex(at, low, true, c));
-        }
-      }
-      for (const int at : {i, i + 1}) {
-        if (upper.empty() || vertices_[static_cast<std::size_t>(upper.back())].node != s.node(at, 0, high)) {
-          upper.push_back(vertex(at, high, false, c));
-        }
-      }
-    }
+    const std::vector<int> lower = chain(begin, end, true), upper = chain(begin, end, false); // along i
     const auto face = [&](int a, int b, int side) {
       auto &va = vertices_[static_cast<std::size_t>(a)], &vb = vertices_[static_cast<std::size_t>(b)];
       const std::array<double, 2> along = minus(vb.x, va.x);
