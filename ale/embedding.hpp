@@ -154,6 +154,9 @@ template <int Dim> double face_opening(const Grid& grid, const Levels<Dim>& leve
 /// Cut cells that are open by less than this share of the whole are slivers: they share their state with a root.
 inline constexpr double sliver_share = 0.5;
 
+/// Of the room that a cell's materials fill: what a body may take of it in a step beyond its motion, where its shape jumps.
+inline constexpr double most_squeeze = 0.002;
+
 /// Kinds and cut cells from levels.
 template <int Dim> void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut);
 

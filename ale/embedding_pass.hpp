@@ -109,6 +109,9 @@ private:
   /// What crossed faces was drawn from pools: what is left in each has its pool's state, by the volumes that are left.
   void settle();
 
+  /// Where a body is bent its open parts do not add up to what was swept: a cell's room stays near that, and void takes what is free.
+  void keep_swept_rooms();
+
   /// What was drawn from a pool is settled in one: who shared a root still does.
   void keep_pools();
 

@@ -5,8 +5,9 @@ namespace ballast {
 
 namespace {
 
-constexpr double nothing = 1e-10;    ///< of a cell at reference density: a material's trace that is dropped, with an entry
+constexpr double nothing = 1e-12;    ///< of a cell at reference density: a material's trace that is dropped, with an entry
 constexpr double wisp = 1e-6;        ///< likewise: what goes on to a neighbour that has more of it
+constexpr double alone = 5e-11;      ///< likewise: a trace in a void, with no such neighbour, that is dropped
 constexpr double merged_below = 0.25; ///< of a whole cell: smaller slivers hold the same mixture as their root, void and all
 constexpr double largest_stretch = 0.98; ///< of a cell's room: less than that is a void
 
@@ -299,7 +300,8 @@ template <int Dim> void EmbeddedRemap<Dim>::scatter() {
         continue;
       }
       const double v = covered ? 0.0 : fitted(c, m), mass = at(c, m, 1);
-      const bool some = v > 0 && mass > nothing * slot.material.density * volume;
+      const bool hollow = at(c, materials() - 1, 0) > 0.9 * volume;
+      const bool some = v > 0 && mass > (hollow ? alone : nothing) * slot.material.density * volume;
       if (!some && mass != 0) {
         scene_.ledger.sliver_mass += mass;
         scene_.ledger.sliver_energy += at(c, m, 2);

@@ -25,6 +25,7 @@ template <int Dim> void EmbeddedRemap<Dim>::run() {
   find_roots(lag_, from_volume_, root_);
   move_through_faces();
   settle();
+  keep_swept_rooms();
   hand_on_wisps();
   find_roots(target_, to_volume_, next_root_);
   keep_pools();
@@ -266,6 +267,18 @@ template <int Dim> void EmbeddedRemap<Dim>::move_through_faces() {
       }
       touched_[x.from] = touched_[x.to] = 1;
     }
+  }
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::keep_swept_rooms() {
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const double swept = from_volume_[c] + swept_[c], open = to_volume_[c];
+    if (special_[dense(cells_[c])] == 0 || !(open > 0) || !(swept > 0)) {
+      continue;
+    }
+    const double slack = most_squeeze * whole_of(target_, cells_[c]), gap = std::max(at(c, materials() - 1, 0), 0.0);
+    const double least = std::max(swept - gap - slack, 0.5 * open), most = gap > slack ? open : swept + slack;
+    to_volume_[c] = std::clamp(open, least, std::max(least, most));
   }
 }
 

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double alike = 0.1;            ///< of a root, at least, is what fills most of its sliver
 constexpr double largest_jump = 0.02;    ///< of its room: what its room may grow beyond what its nodes and the body moved
-constexpr double keeps_of_room = 0.85;   ///< of what a cell's materials fill, at least, when a body takes their room
 
 /// Volumes of the cell's materials become `parts` of `volume`; what is missing is void.
 template <int Dim> void set_volumes(Block<Dim>& b, int r, int i, double volume, const std::vector<double>& parts) {
@@ -192,7 +191,7 @@ template <int Dim> static void take_room(Block<Dim>& b, Embedding<Dim>& e, std::
     double& volume = b.volume.row(r)[i];
     if (std::abs(open - volume) > 1e-12 * c.whole) {
       const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
-      volume = std::max(open, keeps_of_room * (volume - parts.back()));
+      volume = std::max(open, (1 - most_squeeze) * (volume - parts.back()));
       set_volumes(b, r, i, volume, parts);
       rows.push_back(r);
     }
@@ -235,6 +234,26 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
   find_roots(b, e);
 }
 
+/// Share of a cell at most that the body and its nodes' own motion cover in this step.
+template <int Dim> static double entered(const Scene<Dim>& scene, const Embedding<Dim>& e, const Block<Dim>& b, const std::array<int, 3>& cell) {
+  constexpr double slanted = 1.5;
+  double way = 0;
+  for (int p = 0; p < (1 << Dim); ++p) {
+    const auto step = corner_step<Dim>(p);
+    const int r = b.grid.node_row(cell[1] + step[1], cell[2] + step[2]), n = cell[0] + step[0], at = e.next.foot_of[node_at(b.grid, r, n)];
+    if (at < 0) {
+      continue;
+    }
+    const NodeFoot<Dim>& f = e.next.feet[static_cast<std::size_t>(at)];
+    double closing = surface_way(scene, e, f);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      closing -= f.foot.normal[d] * (b.next_position[d].row(r)[n] - b.position[d].row(r)[n]);
+    }
+    way = std::max(way, closing);
+  }
+  return std::min(1.0, slanted * way / edges_at<Dim>(b.grid, b.next_position, cell[0], cell[1], cell[2])[1]);
+}
+
 template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
@@ -259,7 +278,9 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
     const bool alone = kind >= 0 && is_sliver(e, b, r, i) && e.cut[static_cast<std::size_t>(kind)].root < 0; // no one's material flows after it
     const double moved = kind >= 0 ? 2 * (e.force[static_cast<std::size_t>(kind)].half.volume - old) : 0.0;
     const double most = alone ? held * (1 + largest_jump) : std::max(old + moved, held) + largest_jump * old;
-    volume = open > 0 ? std::clamp(open, keeps_of_room * held, std::max(most, gap > 0 ? open : 0.0)) : old;
+    const double pressed = kind >= 0 ? moved : -old * entered<Dim>(scene, e, b, {i, j, k});
+    const double least = (1 - most_squeeze) * std::min(old + pressed, held);
+    volume = open > 0 ? std::clamp(open, least, std::max({most, least, gap > 0 ? open : 0.0})) : old;
   });
 }
 

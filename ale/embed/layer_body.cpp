@@ -116,9 +116,30 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
       (left_is_inner ? left.last : right.first) = nearest_node(s, alive, left_is_inner ? left : right, left_is_inner ? right : left, right.column, lower);
     }
     std::vector<int> out;
-    for (const Run& run : runs) {
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const Run& run = runs[r];
       for (int i = run.first; i <= std::max(run.first, run.last); ++i) {
         out.push_back(vertex(i, run.plane, lower, columns[static_cast<std::size_t>(run.column)]));
+      }
+      if (r + 1 == runs.size()) {
+        break;
+      }
+      // The edges of the layers that end here, from the outer face of the outermost to the inner face of the innermost, or back.
+      const Run& next = runs[r + 1];
+      const bool outer_first = lower ? run.plane < next.plane : run.plane > next.plane;
+      const Run &outer = outer_first ? run : next, &inner = outer_first ? next : run;
+      const int k = next.column, column = outer_first ? k - 1 : k, inward = lower ? 1 : -1;
+      std::vector<int> edge;
+      for (int plane = outer.plane + inward; plane != inner.plane; plane += inward) {
+        if (alive[s.element(column, 0, std::min(plane / (s.grid.through + 1) * s.grid.through, s.grid.levels() - 1))] != 0 && (plane % (s.grid.through + 1) == 0 || plane % (s.grid.through + 1) == s.grid.through)) {
+          edge.push_back(plane);
+        }
+      }
+      if (!outer_first) {
+        std::reverse(edge.begin(), edge.end());
+      }
+      for (const int plane : edge) {
+        out.push_back(vertex(k, plane, lower, columns[static_cast<std::size_t>(column)]));
       }
     }
     return out;
