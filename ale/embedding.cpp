@@ -137,7 +137,7 @@ void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, 
       return;
     }
     what = static_cast<int>(cut.size());
-    cut.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false, -1, {}, feet});
+    cut.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false, -1, {}, 1, feet});
   });
 }
 

@@ -51,6 +51,7 @@ template <int Dim> struct CutCell {
   bool touches = false; ///< presses on the body or is about to
   int root = -1; ///< of a sliver: the cell whose state it shares, as row x pitch + index (Embedding::cell_at), or -1
   std::array<int, 3> root_cell = {};
+  double scaled = 1; ///< of a sliver: by what the step scaled its materials' volumes; the pool they belong to takes it back and shares it
   std::array<int, 1 << Dim> foot = {}; ///< of its corners, in Levels::feet, or -1
 };
 

@@ -133,6 +133,17 @@ template <int Dim> void EmbeddedRemap<Dim>::gather() {
         }
       }
     }
+    const int was = e_.kind[dense(c)];
+    if (holds && was >= 0 && e_.cut[static_cast<std::size_t>(was)].scaled != 1) { // its own change of room is the pool's
+      const double scaled = e_.cut[static_cast<std::size_t>(was)].scaled;
+      double left = volume;
+      for (int m = 0; m + 1 < materials(); ++m) {
+        double& v = now.x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])];
+        v /= scaled;
+        left -= v;
+      }
+      now.x.back() = left;
+    }
     if (covered && !holds) {
       now.x.back() = 0; // the void of a covered cell is no room
     }

@@ -281,6 +281,9 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
     const double pressed = kind >= 0 ? moved : -old * entered<Dim>(scene, e, b, {i, j, k});
     const double least = (1 - most_squeeze) * std::min(old + pressed, held);
     volume = open > 0 ? std::clamp(open, least, std::max({most, least, gap > 0 ? open : 0.0})) : old;
+    if (kind >= 0 && is_sliver(e, b, r, i)) { // as a pure one is; a mixed one's follows
+      e.cut[static_cast<std::size_t>(kind)].scaled = volume / old;
+    }
   });
 }
 

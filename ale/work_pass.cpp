@@ -200,7 +200,7 @@ double advance_mixed(Block<Dim>& b,
 
 /// A mixed sliver beside a body (ale/embedding): its room may change many times over in a step, which no closure is made for. Void
 /// takes the change first, then all materials alike; the work goes by mass. It comes to one state with its root after the step.
-template <int Dim> double advance_sliver(Block<Dim>& b, int r, int i, const WorkRows<Dim>& w) {
+template <int Dim> double advance_sliver(Block<Dim>& b, int r, int i, const WorkRows<Dim>& w, double& scaled) {
   const double volume = b.volume.row(r)[i], next = b.next_volume.row(r)[i];
   double mass = 0, filled = 0;
   for (const MaterialSlot& slot : b.materials) {
@@ -209,6 +209,7 @@ template <int Dim> double advance_sliver(Block<Dim>& b, int r, int i, const Work
   }
   const double gap = std::max(0.0, volume - filled), left = gap > 0 ? std::max(0.0, gap + next - volume) : 0.0;
   const double scale = filled > 0 ? (next - left) / (filled * next) : 0.0, work = w.work[i] - b.reference_pressure * w.swept_volume[i];
+  scaled = filled > 0 ? scale * next : 1.0;
   double sum = 0;
   MaterialSlot* largest = nullptr;
   for (MaterialSlot& slot : b.materials) {
@@ -276,7 +277,7 @@ void advance_row(Scene<Dim>& scene,
                    force_coefficients(b, scene.numerics, dt),
                    cells.count(),
                    buffer.rows.from(cells.begin));
-  const Embedding<Dim>* embedded = embedding_of(scene, b);
+  Embedding<Dim>* embedded = embedding_of(scene, b);
   if (embedded != nullptr) {
     override_work(scene, *embedded, j, k, dt, buffer.rows);
   }
@@ -297,7 +298,7 @@ void advance_row(Scene<Dim>& scene,
   for (const int i : buffer.runs.mixed) {
     if (embedded != nullptr && is_sliver(*embedded, b, r, i)) {
       ++q;
-      sums.void_work += advance_sliver(b, r, i, buffer.rows);
+      sums.void_work += advance_sliver(b, r, i, buffer.rows, embedded->cut[static_cast<std::size_t>(embedded->kind_of(b.grid, r, i))].scaled);
       continue;
     }
     const int before = sums.failed;

@@ -56,26 +56,29 @@ struct Run {
   int plane, column, first, last;
 };
 
-/// The node of the inner run's plane that is nearest to where the outer run's plane ends at node k, on what is left of its layer.
-int nearest_node(const LayerStack<2>& s, const std::vector<char>& alive, const Run& inner, const Run& outer, int k, bool lower) {
-  // The side of the outer layer that faces the inner one.
-  const int facing = outer.plane + (lower ? s.grid.through : -s.grid.through);
-  const std::size_t edge = s.node(k, 0, facing);
-  const int layer = inner.plane / (s.grid.through + 1), level = layer * s.grid.through;
-  const auto square = [&](int i) {
-    const std::size_t n = s.node(i, 0, inner.plane);
-    return (s.position[0][n] - s.position[0][edge]) * (s.position[0][n] - s.position[0][edge]) + (s.position[1][n] - s.position[1][edge]) * (s.position[1][n] - s.position[1][edge]);
+/// Where the face of the inner run's layer meets the outer run's edge at node k: the near node of that of its segments which is nearest to the
+/// edge, on what is left of the layer. `left`: the inner one is left of the edge.
+int meeting_node(const LayerStack<2>& s, const std::vector<char>& alive, const Run& inner, const Run& outer, int k, bool lower, bool left) {
+  const std::size_t edge = s.node(k, 0, outer.plane + (lower ? s.grid.through : -s.grid.through)); // on the side that faces the inner layer
+  const int level = inner.plane / (s.grid.through + 1) * s.grid.through;
+  const auto there = [&](int i) { return i >= 0 && i < s.grid.elements[0] && alive[s.element(i, 0, level)] != 0; };
+  const auto square = [&](int i) { // of the distance to segment i
+    const std::size_t a = s.node(i, 0, inner.plane), b = a + 1;
+    const std::array<double, 2> x = {s.position[0][edge], s.position[1][edge]}, from = {s.position[0][a], s.position[1][a]}, to = {s.position[0][b], s.position[1][b]};
+    const auto along = minus(to, from), off = minus(x, from);
+    const double length = dot(along, along), t = length > 0 ? std::clamp(dot(off, along) / length, 0.0, 1.0) : 0.0;
+    return dot(off, off) - 2 * t * dot(off, along) + t * t * length;
   };
-  int at = k;
+  int at = there(left ? k - 1 : k) ? (left ? k - 1 : k) : (left ? k : k - 1);
+  if (!there(at)) {
+    return k;
+  }
   for (const int step : {-1, 1}) {
-    for (int i = k + step; i >= 0 && i <= s.grid.elements[0]; i += step) {
-      if (alive[s.element(step < 0 ? i : i - 1, 0, level)] == 0 || square(i) >= square(at)) {
-        break;
-      }
-      at = i;
+    while (there(at + step) && square(at + step) < square(at)) {
+      at += step;
     }
   }
-  return at;
+  return left ? at : at + 1;
 }
 
 } // namespace
@@ -99,7 +102,7 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
     return static_cast<int>(vertices_.size()) - 1;
   };
   // Of the columns from begin to end, the nodes of one face. Where it steps from one layer to another, whose nodes may have slid away from
-  // each other, the inner layer's face goes on or ends at its node nearest to the outer one's edge.
+  // each other, the inner layer's face goes on to or ends where the outer one's edge lies over it.
   const auto chain = [&](int begin, int end, bool lower) {
     std::vector<Run> runs;
     for (int i = begin; i < end; ++i) {
@@ -113,7 +116,7 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
     for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
       Run &left = runs[r], &right = runs[r + 1];
       const bool left_is_inner = lower ? left.plane > right.plane : left.plane < right.plane;
-      (left_is_inner ? left.last : right.first) = nearest_node(s, alive, left_is_inner ? left : right, left_is_inner ? right : left, right.column, lower);
+      (left_is_inner ? left.last : right.first) = meeting_node(s, alive, left_is_inner ? left : right, left_is_inner ? right : left, right.column, lower, left_is_inner);
     }
     std::vector<int> out;
     for (std::size_t r = 0; r < runs.size(); ++r) {
