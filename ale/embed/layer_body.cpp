@@ -1,8 +1,9 @@
 #include "ale/embed/layer_body.hpp"
 
+#include "ale/embed/outline.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace ballast {
 
@@ -23,140 +24,20 @@ template <std::size_t N> std::array<double, N> minus(const std::array<double, N>
   return out;
 }
 
-/// Levels of the first and the last element left of a column, first above last: none.
-struct Column {
-  int first = 0, last = -1;
-  bool empty() const { return first > last; }
-};
-
-template <int Dim> Column column_at(const LayerStack<Dim>& s, const std::vector<char>& alive, int i, int j) {
-  Column c{s.grid.levels(), -1};
-  for (int level = 0; level < s.grid.levels(); ++level) {
-    if (alive[s.element(i, j, level)] != 0) {
-      c.first = std::min(c.first, level);
-      c.last = level;
-    }
-  }
-  return c;
-}
-
-/// Room (m) that a column's node lacks to `least`, shared between its lower and upper faces: where it has lost elements, since
-/// that room was covered before, else below.
-struct Padding {
-  double below = 0, above = 0;
-};
-Padding padding(double least, double left, double lost_below, double lost_above) {
-  const double need = std::max(0.0, least - left), lost = lost_below + lost_above;
-  const double share = lost > 0 ? lost_below / lost : 1.0;
-  return {need * share, need * (1 - share)};
-}
-
-/// Nodes of one plane that make a stretch of a face, and a column it belongs to.
-struct Run {
-  int plane, column, first, last;
-};
-
-/// Where the face of the inner run's layer meets the outer run's edge at node k: the near node of that of its segments which is nearest to the
-/// edge, on what is left of the layer. `left`: the inner one is left of the edge.
-int meeting_node(const LayerStack<2>& s, const std::vector<char>& alive, const Run& inner, const Run& outer, int k, bool lower, bool left) {
-  const std::size_t edge = s.node(k, 0, outer.plane + (lower ? s.grid.through : -s.grid.through)); // on the side that faces the inner layer
-  const int level = inner.plane / (s.grid.through + 1) * s.grid.through;
-  const auto there = [&](int i) { return i >= 0 && i < s.grid.elements[0] && alive[s.element(i, 0, level)] != 0; };
-  const auto square = [&](int i) { // of the distance to segment i
-    const std::size_t a = s.node(i, 0, inner.plane), b = a + 1;
-    const std::array<double, 2> x = {s.position[0][edge], s.position[1][edge]}, from = {s.position[0][a], s.position[1][a]}, to = {s.position[0][b], s.position[1][b]};
-    const auto along = minus(to, from), off = minus(x, from);
-    const double length = dot(along, along), t = length > 0 ? std::clamp(dot(off, along) / length, 0.0, 1.0) : 0.0;
-    return dot(off, off) - 2 * t * dot(off, along) + t * t * length;
-  };
-  int at = there(left ? k - 1 : k) ? (left ? k - 1 : k) : (left ? k : k - 1);
-  if (!there(at)) {
-    return k;
-  }
-  for (const int step : {-1, 1}) {
-    while (there(at + step) && square(at + step) < square(at)) {
-      at += step;
-    }
-  }
-  return left ? at : at + 1;
-}
-
 } // namespace
 
-/// Around each run of columns: along the lower faces, up the rim, back along the upper ones; the body lies to the left.
+/// The body lies to the left.
 template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least) {
-  const int n = s.grid.elements[0];
-  std::vector<Column> columns;
-  for (int i = 0; i < n; ++i) {
-    columns.push_back(column_at(s, alive, i, 0));
-  }
-  const double bottom = s.levels.front(), top = s.levels.back();
-  const auto vertex = [&](int i, int plane, bool lower, const Column& c) {
-    const std::size_t node = s.node(i, 0, plane);
-    const std::size_t first = s.node(i, 0, s.plane_below(c.first)), last = s.node(i, 0, s.plane_below(c.last) + 1);
-    const double low = s.rest[1][first], high = s.rest[1][last];
-    const double now = std::hypot(s.position[0][last] - s.position[0][first], s.position[1][last] - s.position[1][first]);
-    const Padding pad = padding(least[static_cast<std::size_t>(i)], std::min(high - low, now), low - bottom, top - high);
-    Vertex v{node, {s.position[0][node], s.position[1][node]}, lower ? pad.below : pad.above, {}, false};
-    vertices_.push_back(v);
-    return static_cast<int>(vertices_.size()) - 1;
-  };
-  // Of the columns from begin to end, the nodes of one face. Where it steps from one layer to another, whose nodes may have slid away from
-  // each other, the inner layer's face goes on to or ends where the outer one's edge lies over it.
-  const auto chain = [&](int begin, int end, bool lower) {
-    std::vector<Run> runs;
-    for (int i = begin; i < end; ++i) {
-      const Column& c = columns[static_cast<std::size_t>(i)];
-      const int plane = lower ? s.plane_below(c.first) : s.plane_below(c.last) + 1;
-      if (runs.empty() || runs.back().plane != plane) {
-        runs.push_back({plane, i, i, i});
+  for (const Outline& o : find_outlines(s, alive, least)) {
+    const auto add = [&](const std::vector<OutlineVertex>& chain) {
+      const auto first = static_cast<int>(vertices_.size());
+      for (const OutlineVertex& v : chain) {
+        vertices_.push_back({v.node, v.weight, v.x, v.offset, {}, false});
       }
-      runs.back().last = i + 1;
-    }
-    for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
-      Run &left = runs[r], &right = runs[r + 1];
-      const bool left_is_inner = lower ? left.plane > right.plane : left.plane < right.plane;
-      (left_is_inner ? left.last : right.first) = meeting_node(s, alive, left_is_inner ? left : right, left_is_inner ? right : left, right.column, lower, left_is_inner);
-    }
-    std::vector<int> out;
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      const Run& run = runs[r];
-      for (int i = run.first; i <= std::max(run.first, run.last); ++i) {
-        out.push_back(vertex(i, run.plane, lower, columns[static_cast<std::size_t>(run.column)]));
-      }
-      if (r + 1 == runs.size()) {
-        break;
-      }
-      // The edges of the layers that end here, from the outer face of the outermost to the inner face of the innermost, or back.
-      const Run& next = runs[r + 1];
-      const bool outer_first = lower ? run.plane < next.plane : run.plane > next.plane;
-      const Run &outer = outer_first ? run : next, &inner = outer_first ? next : run;
-      const int k = next.column, column = outer_first ? k - 1 : k, inward = lower ? 1 : -1;
-      std::vector<int> edge;
-      for (int plane = outer.plane + inward; plane != inner.plane; plane += inward) {
-        if (alive[s.element(column, 0, std::min(plane / (s.grid.through + 1) * s.grid.through, s.grid.levels() - 1))] != 0 && (plane % (s.grid.through + 1) == 0 || plane % (s.grid.through + 1) == s.grid.through)) {
-          edge.push_back(plane);
-        }
-      }
-      if (!outer_first) {
-        std::reverse(edge.begin(), edge.end());
-      }
-      for (const int plane : edge) {
-        out.push_back(vertex(k, plane, lower, columns[static_cast<std::size_t>(column)]));
-      }
-    }
-    return out;
-  };
-  for (int begin = 0; begin < n;) {
-    if (columns[static_cast<std::size_t>(begin)].empty()) {
-      ++begin;
-      continue;
-    }
-    int end = begin;
-    while (end < n && !columns[static_cast<std::size_t>(end)].empty()) {
-      ++end;
-    }
-    const std::vector<int> lower = chain(begin, end, true), upper = chain(begin, end, false); // along i
+      return first;
+    };
+    const int lower = add(o.lower), upper = add(o.upper);
+    const int lower_end = lower + static_cast<int>(o.lower.size()) - 1, upper_end = upper + static_cast<int>(o.upper.size()) - 1;
     const auto face = [&](int a, int b, int side) {
       auto &va = vertices_[static_cast<std::size_t>(a)], &vb = vertices_[static_cast<std::size_t>(b)];
       const std::array<double, 2> along = minus(vb.x, va.x);
@@ -171,27 +52,20 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
       }
       faces_.push_back({{a, b}, normal, side});
     };
-    // The stack's own edge is no rim unless it is free: beyond it the faces go on.
-    const bool goes_on_low = begin == 0 && s.edge[0][0] != LayerEdge::free, goes_on_high = end == n && s.edge[0][1] != LayerEdge::free;
-    for (std::size_t k = 0; k + 1 < lower.size(); ++k) {
-      face(lower[k], lower[k + 1], 0);
+    for (int k = lower; k < lower_end; ++k) {
+      face(k, k + 1, o.lower[static_cast<std::size_t>(k - lower)].side);
     }
-    if (!goes_on_high) {
-      face(lower.back(), upper.back(), 2);
+    if (!o.goes_on_high) {
+      face(lower_end, upper_end, 2);
     }
-    for (std::size_t k = upper.size(); k-- > 1;) {
-      face(upper[k], upper[k - 1], 1);
+    for (int k = upper_end; k > upper; --k) {
+      face(k, k - 1, o.upper[static_cast<std::size_t>(k - 1 - upper)].side);
     }
-    if (!goes_on_low) {
-      face(upper.front(), lower.front(), 2);
+    if (!o.goes_on_low) {
+      face(upper, lower, 2);
     }
-    if (goes_on_low) {
-      vertices_[static_cast<std::size_t>(lower.front())].end = vertices_[static_cast<std::size_t>(upper.front())].end = true;
-    }
-    if (goes_on_high) {
-      vertices_[static_cast<std::size_t>(lower.back())].end = vertices_[static_cast<std::size_t>(upper.back())].end = true;
-    }
-    begin = end;
+    vertices_[static_cast<std::size_t>(lower)].end = vertices_[static_cast<std::size_t>(upper)].end = o.goes_on_low;
+    vertices_[static_cast<std::size_t>(lower_end)].end = vertices_[static_cast<std::size_t>(upper_end)].end = o.goes_on_high;
   }
 }
 
@@ -330,8 +204,8 @@ template <> bool LayerBody<2>::foot(const std::array<double, 2>& point, double r
       out.normal[d] = length > 0 ? outward[d] / length : face.normal[d];
     }
   }
-  out.node = {va.node, vb.node};
-  out.weight = {1 - best_part, best_part};
+  out.node = {va.node[0], va.node[1], vb.node[0], vb.node[1]};
+  out.weight = {(1 - best_part) * va.weight[0], (1 - best_part) * va.weight[1], best_part * vb.weight[0], best_part * vb.weight[1]};
   out.level = (outside ? distance : -distance) - ((1 - best_part) * va.offset + best_part * vb.offset);
   out.side = face.side;
   return std::abs(out.level) <= reach;

@@ -16,7 +16,7 @@ namespace ballast {
 
 /// Where a point stands to a body.
 template <int Dim> struct BodyFoot {
-  static constexpr int most = Dim == 2 ? 2 : 3;
+  static constexpr int most = 2 * Dim; ///< two nodes a vertex of the face
   double level = 0;                        ///< signed distance, m: positive outside
   std::array<double, Dim> normal = {};     ///< its gradient, a unit vector
   std::array<std::size_t, most> node = {}; ///< of the stack, that carry the foot
@@ -48,14 +48,15 @@ public:
 
 private:
   struct Vertex {
-    std::size_t node;
+    std::array<std::size_t, 2> node;
+    std::array<double, 2> weight;
     std::array<double, Dim> x;
     double offset;                 ///< m, outward: what the body is made thicker
     std::array<double, Dim> normal; ///< sum of its faces', not unit
     bool end = false;              ///< beyond it the face goes on: a plane of symmetry, or the stack's edge
   };
   struct Face {
-    std::array<int, BodyFoot<Dim>::most> vertex;
+    std::array<int, Dim> vertex;
     std::array<double, Dim> normal; ///< unit
     int side;
   };
