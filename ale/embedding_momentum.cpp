@@ -8,12 +8,8 @@ template <int Dim> void EmbeddedRemap<Dim>::move_momentum() {
   std::vector<int> row, index;
   std::vector<int> of(static_cast<std::size_t>(g_.node_pitch()) * static_cast<std::size_t>(g_.node_rows()), -1);
   std::vector<std::array<double, Dim>> momentum, least, most; // of the velocities that meet at a node
-  std::vector<std::array<int, 3>> home;                      // a cell that has it as a corner
-  const auto corner = [&](std::size_t c, int bits) {
-    std::array<int, 3> n = cells_[c];
-    for (std::size_t a = 0; a < Dim; ++a) {
-      n[a] += bits >> a & 1;
-    }
+  std::vector<std::array<int, 3>> place;
+  const auto entry = [&](const std::array<int, 3>& n) {
     const int r = g_.node_row(n[1], n[2]);
     int& at_node = of[node_at(g_, r, n[0])];
     if (at_node < 0) {
@@ -36,9 +32,16 @@ template <int Dim> void EmbeddedRemap<Dim>::move_momentum() {
         least.back().fill(std::numeric_limits<double>::infinity());
         most.back().fill(-std::numeric_limits<double>::infinity());
       }
-      home.push_back(cells_[c]);
+      place.push_back(n);
     }
     return static_cast<std::size_t>(at_node);
+  };
+  const auto corner = [&](std::size_t c, int bits) {
+    std::array<int, 3> n = cells_[c];
+    for (std::size_t a = 0; a < Dim; ++a) {
+      n[a] += bits >> a & 1;
+    }
+    return entry(n);
   };
   for (const Transfer& t : transfer_) {
     const auto from = static_cast<std::size_t>(t.from), to = static_cast<std::size_t>(t.to);
@@ -54,38 +57,49 @@ template <int Dim> void EmbeddedRemap<Dim>::move_momentum() {
       }
     }
   }
+  const std::size_t met = momentum.size(); // what else is entered from here on takes what is too much
+  for (std::size_t n = 0; n < met; ++n) {
+    for (int q = 0; q < 2 * Dim; ++q) {
+      std::array<int, 3> to = place[n];
+      const auto a = static_cast<std::size_t>(q / 2);
+      to[a] += q % 2 == 0 ? -1 : 1;
+      if (to[a] >= 0 && to[a] <= g_.cells[a]) {
+        entry(to);
+      }
+    }
+  }
   double before = 0, after = 0;
-  std::vector<double> mass(momentum.size());
   for (std::size_t n = 0; n < momentum.size(); ++n) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const double u = b_.velocity[d].row(row[n])[index[n]];
       before += 0.5 * b_.node_mass.row(row[n])[index[n]] * u * u;
     }
-    mass[n] = b_.node_mass.row(row[n])[index[n]];
   }
   compute_node_mass(b_, *scene_.pool);
   // A node that more passes through than stays may be left with a speed that nothing there had: what is too much of its
-  // momentum goes to the heaviest node of a cell it belongs to.
-  for (std::size_t n = 0; n < momentum.size(); ++n) {
+  // momentum goes to its heaviest neighbour, or out with an entry where there is none.
+  for (std::size_t n = 0; n < met; ++n) {
     const double m = b_.node_mass.row(row[n])[index[n]];
     std::size_t heaviest = n;
     double weight = m;
-    for (int bits = 0; bits < (1 << Dim); ++bits) {
-      std::array<int, 3> other = home[n];
-      for (std::size_t a = 0; a < Dim; ++a) {
-        other[a] += bits >> a & 1;
-      }
-      const int r = g_.node_row(other[1], other[2]), at_node = of[node_at(g_, r, other[0])];
-      if (at_node >= 0 && b_.node_mass.row(r)[other[0]] > weight) {
-        heaviest = static_cast<std::size_t>(at_node);
-        weight = b_.node_mass.row(r)[other[0]];
+    for (int q = 0; q < 2 * Dim; ++q) {
+      std::array<int, 3> to = place[n];
+      const auto a = static_cast<std::size_t>(q / 2);
+      to[a] += q % 2 == 0 ? -1 : 1;
+      if (to[a] >= 0 && to[a] <= g_.cells[a] && b_.node_mass.row(g_.node_row(to[1], to[2]))[to[0]] > weight) {
+        heaviest = entry(to);
+        weight = b_.node_mass.row(g_.node_row(to[1], to[2]))[to[0]];
       }
     }
-    for (std::size_t d = 0; d < Dim && heaviest != n; ++d) {
+    for (std::size_t d = 0; d < Dim; ++d) {
       const double u = m > 0 ? momentum[n][d] / m : 0.0;
-      const double kept = m > 0 && least[n][d] <= most[n][d] ? m * std::clamp(u, least[n][d], most[n][d]) : 0.0;
-      momentum[heaviest][d] += momentum[n][d] - kept;
+      const double kept = m > 0 && least[n][d] <= most[n][d] ? m * std::clamp(u, least[n][d], most[n][d]) : 0.0, excess = momentum[n][d] - kept;
       momentum[n][d] = kept;
+      if (heaviest != n) {
+        momentum[heaviest][d] += excess;
+      } else {
+        scene_.ledger.momentum_out[d] += excess;
+      }
     }
   }
   for (std::size_t n = 0; n < momentum.size(); ++n) {
