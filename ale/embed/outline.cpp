@@ -134,6 +134,15 @@ private:
     double out = 0; ///< on the outer layer's other face: as node plus part, from k on
     bool parted = false;
   };
+  /// Of the layers that end at the edge of a column, the one next to the inner layer.
+  int neighbour(int outer, int inner, int column) const {
+    const int inward = inner > outer ? 1 : -1;
+    int layer = inner - inward;
+    while (layer != outer && !there(layer, column)) {
+      layer -= inward;
+    }
+    return layer;
+  }
   Junction meet(int outer, int inner, int k, bool outer_is_right, bool lower) const {
     const int other = plane(outer, !lower), face = plane(inner, lower), step = outer_is_right ? 1 : -1;
     Junction j;
@@ -181,7 +190,8 @@ private:
       Run &left = runs[r], &right = runs[r + 1];
       const bool outer_is_right = lower ? left.layer > right.layer : left.layer < right.layer;
       const Run &outer = outer_is_right ? right : left, &inner = outer_is_right ? left : right;
-      junctions.push_back(meet(outer.layer, inner.layer, right.column, outer_is_right, lower));
+      const int k = right.column;
+      junctions.push_back(meet(neighbour(outer.layer, inner.layer, outer_is_right ? k : k - 1), inner.layer, k, outer_is_right, lower));
       const OnPlane& on = junctions.back().inner;
       if (on.segment >= 0) {
         (outer_is_right ? left.last : right.first) = outer_is_right ? on.segment : on.segment + 1;
@@ -209,7 +219,7 @@ private:
     const int side = lower ? 0 : 1, k = right.column;
     const bool outer_is_right = lower ? left.layer > right.layer : left.layer < right.layer;
     const Run &outer = outer_is_right ? right : left, &inner = outer_is_right ? left : right;
-    const int column = outer_is_right ? k : k - 1, inward = lower ? 1 : -1, other = plane(outer.layer, !lower);
+    const int column = outer_is_right ? k : k - 1, outward = lower ? -1 : 1, next = neighbour(outer.layer, inner.layer, column), other = plane(next, !lower);
     std::vector<OutlineVertex> way; // from the inner layer to the outer one's edge
     if (j.inner.segment >= 0) {
       const int near = outer_is_right ? j.inner.segment : j.inner.segment + 1;
@@ -220,33 +230,29 @@ private:
       way.push_back(between(last, j.out - last, other, 0, side));
       const int step = outer_is_right ? -1 : 1;
       for (int i = outer_is_right ? static_cast<int>(std::ceil(j.out)) - 1 : static_cast<int>(std::floor(j.out)) + 1; (outer_is_right ? i >= k : i <= k); i += step) {
-        way.push_back(vertex(i, other, pad_alone(outer.layer, i), side));
+        way.push_back(vertex(i, other, pad_alone(next, i), side));
       }
     } else {
-      std::vector<OutlineVertex> edges; // of the layers that end here, from the outermost
-      for (int layer = outer.layer; layer != inner.layer; layer += inward) {
-        if (there(layer, column)) {
-          if (layer != outer.layer) {
-            edges.push_back(vertex(k, plane(layer, lower), pad(k, columns_[at(column)], lower), side));
-          }
-          edges.push_back(vertex(k, plane(layer, !lower), pad(k, columns_[at(column)], lower), side));
-        }
-      }
-      way.insert(way.end(), edges.rbegin(), edges.rend());
+      way.push_back(vertex(k, other, pad(k, columns_[at(column)], lower), side));
     }
-    for (std::size_t q = 0; j.parted && q + 1 < way.size(); ++q) { // back along the outer layer: its other side
-      const bool along_outer = q > 0;
-      way[q].side = along_outer ? 1 - side : side;
+    // Back along the gap on the outer layer's other side: `side` belongs to the face on to the next vertex from left to right.
+    const std::size_t first = j.inner.segment >= 0 ? 1 : 0;
+    for (std::size_t q = first; j.parted && q + 1 < way.size(); ++q) {
+      way[outer_is_right ? q : q + 1].side = 1 - side;
+    }
+    for (int layer = next; layer != outer.layer; layer += outward) { // edges, one over the other
+      if (layer == next || there(layer, column)) {
+        if (layer != next) {
+          way.push_back(vertex(k, plane(layer, !lower), pad(k, columns_[at(column)], lower), side));
+        }
+        way.push_back(vertex(k, plane(layer, lower), pad(k, columns_[at(column)], lower), side));
+      }
+    }
+    if (next != outer.layer) {
+      way.push_back(vertex(k, plane(outer.layer, !lower), pad(k, columns_[at(column)], lower), side));
     }
     if (!outer_is_right) {
       std::reverse(way.begin(), way.end());
-      for (std::size_t q = 0; j.parted && q + 2 < way.size(); ++q) {
-        way[q].side = 1 - side;
-      }
-      if (j.parted && way.size() > 1) {
-        way[way.size() - 2].side = side;
-        way.back().side = side;
-      }
     }
     out.insert(out.end(), way.begin(), way.end());
   }
