@@ -15,7 +15,7 @@ template <int Dim> std::vector<LayerBody<Dim>> bodies_of(const Scene<Dim>& scene
 }
 
 template <int Dim>
-Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position, const std::vector<LayerBody<Dim>>& bodies, const Levels<Dim>* before) {
+Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position, const std::vector<LayerBody<Dim>>& bodies, const Levels<Dim>* before, ThreadPool& pool) {
   Levels<Dim> out;
   out.level = RowField::of_nodes(g, 1.0);
   out.foot_of.assign(static_cast<std::size_t>(g.node_pitch()) * static_cast<std::size_t>(g.node_rows()), -1);
@@ -23,7 +23,9 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
   for (const LayerBody<Dim>& body : bodies) {
     longest = std::max(longest, body.longest_reach());
   }
-  for_nodes<Dim>(g, [&](int i, int j, int k) {
+  const int rows = (g.cells[1] + 1) * (Dim == 3 ? g.cells[2] + 1 : 1);
+  std::vector<std::vector<NodeFoot<Dim>>> found(static_cast<std::size_t>(rows)); // by row of nodes
+  const auto level_of = [&](int i, int j, int k, std::vector<NodeFoot<Dim>>& feet) {
     const int r = g.node_row(j, k);
     std::array<double, Dim> x{};
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -48,13 +50,13 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
     double& level = out.level.row(r)[i];
     if (best.stack >= 0) {
       level = best.foot.level;
-      out.foot_of[node_at(g, r, i)] = static_cast<int>(out.feet.size());
-      out.feet.push_back(best);
+      out.foot_of[node_at(g, r, i)] = static_cast<int>(feet.size());
+      feet.push_back(best);
       BodyFoot<Dim> far;
       const auto body = static_cast<std::size_t>(best.stack);
       if (!(level > 0) && best.foot.side < 2 && bodies[body].foot(x, 2 * reach, far, 1 - best.foot.side)) {
-        out.feet.back().other = static_cast<int>(out.feet.size());
-        out.feet.push_back({far, best.stack, r, i, -1, false, {}, {}});
+        feet.back().other = static_cast<int>(feet.size());
+        feet.push_back({far, best.stack, r, i, -1, false, {}, {}});
       }
       return;
     }
@@ -67,7 +69,26 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       }
     }
     level = inside ? -reach : reach;
+  };
+  parallel_ranges(pool, rows, [&](int begin, int end, int) {
+    for (int row = begin; row < end; ++row) {
+      for (int i = 0; i <= g.cells[0]; ++i) {
+        level_of(i, row % (g.cells[1] + 1), row / (g.cells[1] + 1), found[static_cast<std::size_t>(row)]);
+      }
+    }
   });
+  for (int row = 0; row < rows; ++row) {
+    const auto first = static_cast<int>(out.feet.size());
+    for (NodeFoot<Dim>& f : found[static_cast<std::size_t>(row)]) {
+      f.other += f.other >= 0 ? first : 0;
+      out.feet.push_back(f);
+    }
+    const int r = g.node_row(row % (g.cells[1] + 1), row / (g.cells[1] + 1));
+    for (int i = 0; i <= g.cells[0] && first > 0 && !found[static_cast<std::size_t>(row)].empty(); ++i) {
+      int& at = out.foot_of[node_at(g, r, i)];
+      at += at >= 0 ? first : 0;
+    }
+  }
   return out;
 }
 
@@ -153,7 +174,7 @@ template <int Dim> double face_opening(const Grid& g, const Levels<Dim>& levels,
 
 #define BALLAST_INSTANTIATE(D) \
   template std::vector<LayerBody<D>> bodies_of<D>(const Scene<D>&, const Embedding<D>&); \
-  template Levels<D> find_levels<D>(const Grid&, const std::array<RowField, D>&, const std::vector<LayerBody<D>>&, const Levels<D>*); \
+  template Levels<D> find_levels<D>(const Grid&, const std::array<RowField, D>&, const std::vector<LayerBody<D>>&, const Levels<D>*, ThreadPool&); \
   template LevelCell<D> level_cell<D>(const Grid&, const std::array<RowField, D>&, const Levels<D>&, const std::array<int, 3>&, std::array<int, 1 << D>*); \
   template int open_side<D>(const Grid&, const Levels<D>&, std::span<const std::array<int, 3>>); \
   template double level_on<D>(const Grid&, const Levels<D>&, const std::array<int, 3>&, int); \

@@ -15,7 +15,7 @@ constexpr double largest_stretch = 0.98; ///< of a cell's room: less than that i
 
 template <int Dim> void EmbeddedRemap<Dim>::pool() {
   path_[0] = b_.position;
-  levels_[0] = e_.next;
+  levels_[0] = std::move(e_.next);
   find_cells<Dim>(b_, path_[0], levels_[0], lag_.kind, lag_.cut);
   target_ = lag_;
   find_special();
@@ -29,6 +29,7 @@ template <int Dim> void EmbeddedRemap<Dim>::pool() {
   equalise();
   scatter();
   move_momentum();
+  e_.now = std::move(levels_[0]);
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::pool_contents(const std::vector<int>& root, std::vector<Contents>& pool, std::vector<char>& pooled) const {

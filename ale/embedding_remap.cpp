@@ -33,17 +33,18 @@ template <int Dim> void EmbeddedRemap<Dim>::run() {
   equalise();
   scatter();
   move_momentum();
+  e_.now = std::move(levels_[Dim]); // where the sweeps leave the nodes
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::find_levels_on_the_way() {
   const std::vector<LayerBody<Dim>> bodies = bodies_of(scene_, e_);
   path_[0] = b_.position;
-  levels_[0] = e_.next;
+  levels_[0] = std::move(e_.next);
   for (int q = 0; q < Dim; ++q) {
     const auto next = static_cast<std::size_t>(q + 1), d = static_cast<std::size_t>(remap::sweep_axis(Dim, q, order_));
     path_[next] = path_[next - 1];
     path_[next][d] = b_.target[d];
-    levels_[next] = find_levels<Dim>(g_, path_[next], bodies, &e_.now);
+    levels_[next] = find_levels<Dim>(g_, path_[next], bodies, &e_.now, *scene_.pool);
   }
   find_cells<Dim>(b_, path_[0], levels_[0], lag_.kind, lag_.cut);
   find_cells<Dim>(b_, path_[Dim], levels_[Dim], target_.kind, target_.cut);
@@ -324,8 +325,7 @@ template <int Dim> void pool_embedded(Scene<Dim>& scene, Embedding<Dim>& e, Bloc
   EmbeddedRemap<Dim>(scene, e, b, nullptr, {}, 0).pool();
 }
 
-template <int Dim> void restore_open_volumes(Scene<Dim>& scene, Embedding<Dim>& e, Block<Dim>& b) {
-  e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), &e.now);
+template <int Dim> void restore_open_volumes(Embedding<Dim>& e, Block<Dim>& b) {
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
   for (const CutCell<Dim>& c : e.cut) {
     b.volume.row(c.row)[c.cell[0]] = open_volume(level_cell<Dim>(b.grid, b.position, e.now, c.cell), b.axisymmetric);
@@ -339,7 +339,7 @@ template void remap_embedded<2>(Scene<2>&, Embedding<2>&, Block<2>&, remap::Mesh
 template void remap_embedded<3>(Scene<3>&, Embedding<3>&, Block<3>&, remap::Mesh<3>&, const remap::Settings&, long);
 template void pool_embedded<2>(Scene<2>&, Embedding<2>&, Block<2>&);
 template void pool_embedded<3>(Scene<3>&, Embedding<3>&, Block<3>&);
-template void restore_open_volumes<2>(Scene<2>&, Embedding<2>&, Block<2>&);
-template void restore_open_volumes<3>(Scene<3>&, Embedding<3>&, Block<3>&);
+template void restore_open_volumes<2>(Embedding<2>&, Block<2>&);
+template void restore_open_volumes<3>(Embedding<3>&, Block<3>&);
 
 } // namespace ballast

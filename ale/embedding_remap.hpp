@@ -14,6 +14,6 @@ template <int Dim> void remap_embedded(Scene<Dim>& scene, Embedding<Dim>& e, Blo
 template <int Dim> void pool_embedded(Scene<Dim>& scene, Embedding<Dim>& e, Block<Dim>& block);
 
 /// After the sweeps: levels and cut cells on the target mesh, whose volumes are open parts.
-template <int Dim> void restore_open_volumes(Scene<Dim>& scene, Embedding<Dim>& e, Block<Dim>& block);
+template <int Dim> void restore_open_volumes(Embedding<Dim>& e, Block<Dim>& block);
 
 } // namespace ballast

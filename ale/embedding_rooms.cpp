@@ -97,17 +97,19 @@ template <int Dim> static void find_roots(const Block<Dim>& b, Embedding<Dim>& e
   }
 }
 
-template <int Dim> static void keep_alive(const Scene<Dim>& scene, Embedding<Dim>& e) {
-  e.alive.clear();
+/// True if elements have gone since.
+template <int Dim> static bool keep_alive(const Scene<Dim>& scene, Embedding<Dim>& e) {
+  const auto before = std::exchange(e.alive, {});
   for (const Layers<Dim>& l : scene.layers) {
     e.alive.push_back(l.stack.alive);
   }
+  return e.alive != before;
 }
 
 template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e) {
   keep_alive(scene, e);
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
-  e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), nullptr);
+  e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), nullptr, *scene.pool);
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
 }
 
@@ -202,8 +204,9 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
   const std::vector<int> before = e.kind;
-  keep_alive(scene, e);
-  e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), &e.now);
+  if (keep_alive(scene, e)) { // else they are where the last step left them
+    e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), &e.now, *scene.pool);
+  }
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
   std::vector<int> rows; // whose state is to be evaluated anew
   take_room(b, e, rows);
@@ -257,7 +260,7 @@ template <int Dim> static double entered(const Scene<Dim>& scene, const Embeddin
 template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
-  e.next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), &e.now);
+  e.next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), &e.now, *scene.pool);
   const Levels<Dim>& next = e.next;
   for_cells<Dim>(g, [&](int i, int j, int k) {
     if (open_corners<Dim>(g, next, i, j, k) == 1 << Dim) {
