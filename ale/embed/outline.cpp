@@ -130,22 +130,15 @@ private:
 
   /// Where the outer layer's edge at node k meets the inner layer.
   struct Junction {
+    int edge = 0;
     OnPlane inner;
     double out = 0; ///< on the outer layer's other face: as node plus part, from k on
     bool parted = false;
   };
-  /// Of the layers that end at the edge of a column, the one next to the inner layer.
-  int neighbour(int outer, int inner, int column) const {
-    const int inward = inner > outer ? 1 : -1;
-    int layer = inner - inward;
-    while (layer != outer && !there(layer, column)) {
-      layer -= inward;
-    }
-    return layer;
-  }
   Junction meet(int outer, int inner, int k, bool outer_is_right, bool lower) const {
     const int other = plane(outer, !lower), face = plane(inner, lower), step = outer_is_right ? 1 : -1;
     Junction j;
+    j.edge = k;
     j.out = k;
     j.inner = nearest(inner, face, place(k, other), outer_is_right ? k - 1 : k);
     if (j.inner.segment < 0 || j.inner.gap <= least_[at(k)]) {
@@ -176,11 +169,23 @@ private:
 
   std::vector<OutlineVertex> chain(int begin, int end, bool lower) const {
     const int side = lower ? 0 : 1;
+    // Runs of columns of one layer, and of no width where layers end over each other.
     std::vector<Run> runs;
+    std::vector<int> edges;
     for (int i = begin; i < end; ++i) {
       const Column& c = columns_[at(i)];
       const int layer = (lower ? c.first : c.last) / through();
       if (runs.empty() || runs.back().layer != layer) {
+        if (!runs.empty()) {
+          const int from = runs.back().layer, step = layer > from ? 1 : -1, column = (layer > from) == lower ? i - 1 : i; // the outer one's
+          for (int q = from + step; q != layer; q += step) {
+            if (there(q, column)) {
+              runs.push_back({q, column, i, i});
+              edges.push_back(i);
+            }
+          }
+          edges.push_back(i);
+        }
         runs.push_back({layer, i, i, i});
       }
       runs.back().last = i + 1;
@@ -190,8 +195,7 @@ private:
       Run &left = runs[r], &right = runs[r + 1];
       const bool outer_is_right = lower ? left.layer > right.layer : left.layer < right.layer;
       const Run &outer = outer_is_right ? right : left, &inner = outer_is_right ? left : right;
-      const int k = right.column;
-      junctions.push_back(meet(neighbour(outer.layer, inner.layer, outer_is_right ? k : k - 1), inner.layer, k, outer_is_right, lower));
+      junctions.push_back(meet(outer.layer, inner.layer, edges[r], outer_is_right, lower));
       const OnPlane& on = junctions.back().inner;
       if (on.segment >= 0) {
         (outer_is_right ? left.last : right.first) = outer_is_right ? on.segment : on.segment + 1;
@@ -201,8 +205,8 @@ private:
     for (std::size_t r = 0; r < runs.size(); ++r) {
       const Run& run = runs[r];
       // Nodes over a gap belong to a flap.
-      const int flap_low = r > 0 && junctions[r - 1].parted && junctions[r - 1].out > run.column ? static_cast<int>(std::ceil(junctions[r - 1].out)) : -1;
-      const int flap_high = r < junctions.size() && junctions[r].parted && junctions[r].out < runs[r + 1].column ? static_cast<int>(junctions[r].out) : s_.grid.elements[0] + 1;
+      const int flap_low = r > 0 && junctions[r - 1].parted && junctions[r - 1].out > junctions[r - 1].edge ? static_cast<int>(std::ceil(junctions[r - 1].out)) : -1;
+      const int flap_high = r < junctions.size() && junctions[r].parted && junctions[r].out < junctions[r].edge ? static_cast<int>(junctions[r].out) : s_.grid.elements[0] + 1;
       for (int i = run.first; i <= run.last; ++i) {
         const bool flap = i < flap_low || i > flap_high;
         out.push_back(vertex(i, plane(run.layer, lower), flap ? pad_alone(run.layer, i) : pad(i, columns_[at(run.column)], lower), side));
@@ -216,10 +220,10 @@ private:
 
   /// What lies between two runs, left to right.
   void join(const Run& left, const Run& right, const Junction& j, bool lower, std::vector<OutlineVertex>& out) const {
-    const int side = lower ? 0 : 1, k = right.column;
+    const int side = lower ? 0 : 1, k = j.edge;
     const bool outer_is_right = lower ? left.layer > right.layer : left.layer < right.layer;
     const Run &outer = outer_is_right ? right : left, &inner = outer_is_right ? left : right;
-    const int column = outer_is_right ? k : k - 1, outward = lower ? -1 : 1, next = neighbour(outer.layer, inner.layer, column), other = plane(next, !lower);
+    const int other = plane(outer.layer, !lower);
     std::vector<OutlineVertex> way; // from the inner layer to the outer one's edge
     if (j.inner.segment >= 0) {
       const int near = outer_is_right ? j.inner.segment : j.inner.segment + 1;
@@ -230,26 +234,15 @@ private:
       way.push_back(between(last, j.out - last, other, 0, side));
       const int step = outer_is_right ? -1 : 1;
       for (int i = outer_is_right ? static_cast<int>(std::ceil(j.out)) - 1 : static_cast<int>(std::floor(j.out)) + 1; (outer_is_right ? i >= k : i <= k); i += step) {
-        way.push_back(vertex(i, other, pad_alone(next, i), side));
+        way.push_back(vertex(i, other, pad_alone(outer.layer, i), side));
       }
     } else {
-      way.push_back(vertex(k, other, pad(k, columns_[at(column)], lower), side));
+      way.push_back(vertex(k, other, pad(k, columns_[at(outer.column)], lower), side));
     }
     // Back along the gap on the outer layer's other side: `side` belongs to the face on to the next vertex from left to right.
     const std::size_t first = j.inner.segment >= 0 ? 1 : 0;
     for (std::size_t q = first; j.parted && q + 1 < way.size(); ++q) {
       way[outer_is_right ? q : q + 1].side = 1 - side;
-    }
-    for (int layer = next; layer != outer.layer; layer += outward) { // edges, one over the other
-      if (layer == next || there(layer, column)) {
-        if (layer != next) {
-          way.push_back(vertex(k, plane(layer, !lower), pad(k, columns_[at(column)], lower), side));
-        }
-        way.push_back(vertex(k, plane(layer, lower), pad(k, columns_[at(column)], lower), side));
-      }
-    }
-    if (next != outer.layer) {
-      way.push_back(vertex(k, plane(outer.layer, !lower), pad(k, columns_[at(column)], lower), side));
     }
     if (!outer_is_right) {
       std::reverse(way.begin(), way.end());
