@@ -66,7 +66,8 @@ public:
       while (end < n && !columns_[at(end)].empty()) {
         ++end;
       }
-      out.push_back({chain(begin, end, true), chain(begin, end, false), begin == 0 && s_.edge[0][0] != LayerEdge::free, end == n && s_.edge[0][1] != LayerEdge::free});
+      const bool on_low = begin == 0 && s_.edge[0][0] != LayerEdge::free, on_high = end == n && s_.edge[0][1] != LayerEdge::free;
+      out.push_back({chain(begin, end, true, on_low, on_high), chain(begin, end, false, true, true), on_low, on_high});
       begin = end;
     }
     return out;
@@ -167,11 +168,18 @@ private:
     return between(i, where - i, plane, 0, 0).x;
   }
 
-  std::vector<OutlineVertex> chain(int begin, int end, bool lower) const {
+  /// One face of the columns from begin to end, and at a rim the edges of the layers one over the other, if it is no end that goes on.
+  std::vector<OutlineVertex> chain(int begin, int end, bool lower, bool on_low, bool on_high) const {
     const int side = lower ? 0 : 1;
     // Runs of columns of one layer, and of no width where layers end over each other.
     std::vector<Run> runs;
     std::vector<int> edges;
+    for (int q = columns_[at(begin)].last / through(); !on_low && q > columns_[at(begin)].first / through(); --q) {
+      if (there(q, begin)) {
+        runs.push_back({q, begin, begin, begin});
+        edges.resize(runs.size() - 1, begin);
+      }
+    }
     for (int i = begin; i < end; ++i) {
       const Column& c = columns_[at(i)];
       const int layer = (lower ? c.first : c.last) / through();
@@ -189,6 +197,12 @@ private:
         runs.push_back({layer, i, i, i});
       }
       runs.back().last = i + 1;
+    }
+    for (int q = columns_[at(end - 1)].first / through() + 1; !on_high && q <= columns_[at(end - 1)].last / through(); ++q) {
+      if (there(q, end - 1)) {
+        runs.push_back({q, end - 1, end, end});
+        edges.push_back(end);
+      }
     }
     std::vector<Junction> junctions;
     for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
