@@ -140,7 +140,14 @@ template <int Dim> void EmbeddedRemap<Dim>::hand_on_wisps() {
           }
         }
       }
-      if (to == c) {
+      if (to == c) { // alone in a void: a drop at rest, else it would boil away without end
+        const double drop = mass / b_.materials[static_cast<std::size_t>(m)].material.density;
+        if (at(c, materials() - 1, 0) > 0.9 * room(c) && std::abs(at(c, m, 0) - drop) > 0.1 * drop) {
+          at(c, materials() - 1, 0) += at(c, m, 0) - drop;
+          scene_.ledger.sliver_energy += at(c, m, field::energy);
+          at(c, m, 0) = drop;
+          at(c, m, field::energy) = 0;
+        }
         continue;
       }
       at(c, materials() - 1, 0) += at(c, m, 0);
