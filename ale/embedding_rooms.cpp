@@ -204,8 +204,8 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
   const std::vector<int> before = e.kind;
-  if (keep_alive(scene, e)) { // else they are where the last step left them
-    e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), &e.now, *scene.pool);
+  if (keep_alive(scene, e)) { // else they are where the last step left them; signs anew: far from all faces there may be no body any more
+    e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), nullptr, *scene.pool);
   }
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
   std::vector<int> rows; // whose state is to be evaluated anew
