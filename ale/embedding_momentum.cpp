@@ -1,4 +1,4 @@
-// Momentum goes corner by corner with the mass, at the velocity of the corner it leaves.
+// Momentum goes corner by corner with the mass, one transfer after the other, at the velocity that the corner it leaves has by then.
 #include "ale/embedding_pass.hpp"
 
 namespace ballast {
@@ -9,6 +9,7 @@ template <int Dim> void EmbeddedRemap<Dim>::move_momentum() {
   std::vector<int> of(static_cast<std::size_t>(g_.node_pitch()) * static_cast<std::size_t>(g_.node_rows()), -1);
   std::vector<std::array<double, Dim>> momentum, least, most; // of the velocities that meet at a node
   std::vector<std::array<int, 3>> place;
+  std::vector<double> mass; // as it goes
   const auto entry = [&](const std::array<int, 3>& n) {
     const int r = g_.node_row(n[1], n[2]);
     int& at_node = of[node_at(g_, r, n[0])];
@@ -33,6 +34,7 @@ template <int Dim> void EmbeddedRemap<Dim>::move_momentum() {
         most.back().fill(-std::numeric_limits<double>::infinity());
       }
       place.push_back(n);
+      mass.push_back(b_.node_mass.row(r)[n[0]]);
     }
     return static_cast<std::size_t>(at_node);
   };
@@ -49,12 +51,15 @@ template <int Dim> void EmbeddedRemap<Dim>::move_momentum() {
       const std::size_t a = corner(from, bits), z = corner(to, bits);
       const double leaves = t.mass * corner_share(b_, bits, cells_[from][0], cells_[from][1], cells_[from][2]);
       for (std::size_t d = 0; d < Dim; ++d) {
-        const double u = b_.velocity[d].row(row[a])[index[a]], p = leaves * u;
+        const double now = mass[a] > 0 ? momentum[a][d] / mass[a] : b_.velocity[d].row(row[a])[index[a]];
+        const double u = least[a][d] <= most[a][d] ? std::clamp(now, least[a][d], most[a][d]) : now, p = leaves * u;
         momentum[a][d] -= p;
         momentum[z][d] += p;
         least[z][d] = std::min(least[z][d], u);
         most[z][d] = std::max(most[z][d], u);
       }
+      mass[a] -= leaves;
+      mass[z] += leaves;
     }
   }
   const std::size_t met = momentum.size(); // what else is entered from here on takes what is too much
