@@ -188,7 +188,7 @@ template <int Dim> bool EmbeddedRemap<Dim>::at_rest(const std::vector<std::size_
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::give_room(std::size_t root, const std::vector<std::size_t>& members) {
-  constexpr double keeps = 0.85;
+  constexpr double keeps = 1 - most_squeeze;
   double room_there = 0, filled = 0;
   for (const std::size_t c : members) {
     room_there += room(c);

@@ -31,6 +31,7 @@ template <int Dim> void set_volumes(Block<Dim>& b, int r, int i, double volume, 
   TileStore& gap = b.materials[hole].store;
   gap.allocate(gap.tile_of(r));
   gap.row(field::fraction, r)[i] = left > 1e-14 ? left : 0.0;
+  compute_owner(b, r, {i, i + 1});
 }
 
 template <int Dim> std::vector<double> volumes_of(const Block<Dim>& b, int r, int i, double volume) {
@@ -184,9 +185,10 @@ template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e) 
   });
 }
 
-/// Volumes that have changed though nothing moved: elements have gone. Void takes their room.
-template <int Dim> static void take_room(Block<Dim>& b, Embedding<Dim>& e, std::vector<int>& rows) {
+/// Volumes that have changed though nothing moved: elements have gone. Void takes their room. True if there were any.
+template <int Dim> static bool take_room(Block<Dim>& b, Embedding<Dim>& e) {
   const Grid& g = b.grid;
+  bool changed = false;
   for (const CutCell<Dim>& c : e.cut) {
     const int r = c.row, i = c.cell[0];
     const double open = open_volume(level_cell<Dim>(g, b.position, e.now, c.cell), b.axisymmetric);
@@ -195,9 +197,10 @@ template <int Dim> static void take_room(Block<Dim>& b, Embedding<Dim>& e, std::
       const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
       volume = std::max(open, (1 - most_squeeze) * (volume - parts.back()));
       set_volumes(b, r, i, volume, parts);
-      rows.push_back(r);
+      changed = true;
     }
   }
+  return changed;
 }
 
 template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
@@ -208,8 +211,7 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
     e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), nullptr, *scene.pool);
   }
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
-  std::vector<int> rows; // whose state is to be evaluated anew
-  take_room(b, e, rows);
+  bool changed = take_room(b, e);
   for_cells<Dim>(g, [&](int i, int j, int k) { // cells that have come free
     const int r = g.cell_row(j, k);
     const std::size_t at = e.cell_at(g, r, i);
@@ -220,18 +222,12 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
         const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
         volume = whole;
         set_volumes(b, r, i, whole, parts);
-        rows.push_back(r);
+        changed = true;
       }
     }
   });
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  std::vector<double> rho(static_cast<std::size_t>(g.cells[0]));
-  RowRuns runs;
-  for (const int r : rows) {
-    row_state(b, r, runs, rho);
-  }
-  if (!rows.empty()) {
+  if (changed) {
+    update_state(b, *scene.pool);
     update_traction(b, *scene.pool);
   }
   find_roots(b, e);
