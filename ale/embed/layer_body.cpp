@@ -64,6 +64,12 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
     if (!o.goes_on_low) {
       face(upper, lower, 2);
     }
+    for (const std::vector<OutlineVertex>& gap : o.gaps) {
+      const int first = add(gap), count = static_cast<int>(gap.size());
+      for (int k = 0; k < count; ++k) {
+        face(first + k, first + (k + 1) % count, gap[static_cast<std::size_t>(k)].side);
+      }
+    }
     vertices_[static_cast<std::size_t>(lower)].end = vertices_[static_cast<std::size_t>(upper)].end = o.goes_on_low;
     vertices_[static_cast<std::size_t>(lower_end)].end = vertices_[static_cast<std::size_t>(upper_end)].end = o.goes_on_high;
   }

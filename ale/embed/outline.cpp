@@ -67,7 +67,11 @@ public:
         ++end;
       }
       const bool on_low = begin == 0 && s_.edge[0][0] != LayerEdge::free, on_high = end == n && s_.edge[0][1] != LayerEdge::free;
-      out.push_back({chain(begin, end, true, on_low, on_high), chain(begin, end, false, true, true), on_low, on_high});
+      out.push_back({chain(begin, end, true, on_low, on_high), chain(begin, end, false, true, true), on_low, on_high, {}});
+      for (int layer = 0; layer + 1 < s_.grid.layers; ++layer) {
+        find_gaps(begin, end, layer, out.back().gaps);
+      }
+      clefts_.clear();
       begin = end;
     }
     return out;
@@ -169,7 +173,7 @@ private:
   }
 
   /// One face of the columns from begin to end, and at a rim the edges of the layers one over the other, if it is no end that goes on.
-  std::vector<OutlineVertex> chain(int begin, int end, bool lower, bool on_low, bool on_high) const {
+  std::vector<OutlineVertex> chain(int begin, int end, bool lower, bool on_low, bool on_high) {
     const int side = lower ? 0 : 1;
     // Runs of columns of one layer, and of no width where layers end over each other.
     std::vector<Run> runs;
@@ -210,6 +214,9 @@ private:
       const bool outer_is_right = lower ? left.layer > right.layer : left.layer < right.layer;
       const Run &outer = outer_is_right ? right : left, &inner = outer_is_right ? left : right;
       junctions.push_back(meet(outer.layer, inner.layer, edges[r], outer_is_right, lower));
+      if (junctions.back().parted) {
+        clefts_.push_back({std::min(outer.layer, inner.layer), std::min<double>(edges[r], junctions.back().out), std::max<double>(edges[r], junctions.back().out)});
+      }
       const OnPlane& on = junctions.back().inner;
       if (on.segment >= 0) {
         (outer_is_right ? left.last : right.first) = outer_is_right ? on.segment : on.segment + 1;
@@ -230,6 +237,56 @@ private:
       }
     }
     return out;
+  }
+
+  /// How much wider than the mesh sees is the gap over a layer's node?
+  double gap_over(int layer, int i) const {
+    const OnPlane on = nearest(layer + 1, plane(layer + 1, true), place(i, plane(layer, false)), i);
+    const bool stands = std::min(rest_thickness(layer, i), rest_thickness(layer + 1, i)) > least_[at(i)]; // else a cell may see both sides of a layer
+    return on.segment < 0 || !stands ? -least_[at(i)] : on.gap - least_[at(i)];
+  }
+  double rest_thickness(int layer, int i) const { return s_.rest[1][s_.node(i, 0, plane(layer, false))] - s_.rest[1][s_.node(i, 0, plane(layer, true))]; }
+  /// Where a layer and the next have parted, away from holes: closed outlines, along the upper layer's lower face and back along the lower one's upper face.
+  void find_gaps(int begin, int end, int layer, std::vector<std::vector<OutlineVertex>>& out) const {
+    for (int i = begin; i < end;) {
+      int last = i; // of this stretch of both layers
+      while (last < end && there(layer, last) && there(layer + 1, last)) {
+        ++last;
+      }
+      for (int a = i + 1; a < last; ++a) {
+        if (!(gap_over(layer, a) > 0)) {
+          continue;
+        }
+        int b = a;
+        while (b + 1 < last && gap_over(layer, b + 1) > 0) {
+          ++b;
+        }
+        const double ga = gap_over(layer, a), gb = gap_over(layer, b), before = gap_over(layer, a - 1), after = gap_over(layer, b + 1);
+        const double from = before > 0 ? a - 1.0 : a - ga / (ga - before), to = after > 0 ? b + 1.0 : b + gb / (gb - after);
+        const bool known = std::any_of(clefts_.begin(), clefts_.end(), [&](const Cleft& c) { return c.layer == layer && c.from <= to && from <= c.to; });
+        if (!known) {
+          out.push_back(gap_outline(layer, from, to));
+        }
+        a = b + 1;
+      }
+      i = std::max(last, i + 1);
+    }
+  }
+  std::vector<OutlineVertex> gap_outline(int layer, double from, double to) const {
+    const int face = plane(layer, false), other = plane(layer + 1, true);
+    const OnPlane low = nearest(layer + 1, other, point(from, face), static_cast<int>(from)), high = nearest(layer + 1, other, point(to, face), static_cast<int>(to));
+    std::vector<OutlineVertex> loop = {between(low.segment, low.part, other, 0, 0)};
+    for (int i = low.segment + 1; i <= high.segment; ++i) {
+      loop.push_back(vertex(i, other, 0, 0));
+    }
+    loop.push_back(between(high.segment, high.part, other, 0, 0));
+    const int last = std::min(static_cast<int>(to), s_.grid.elements[0] - 1), first = static_cast<int>(from);
+    loop.push_back(between(last, to - last, face, 0, 1));
+    for (int i = static_cast<int>(std::ceil(to)) - 1; i > from; --i) {
+      loop.push_back(vertex(i, face, 0, 1));
+    }
+    loop.push_back(between(first, from - first, face, 0, 0));
+    return loop;
   }
 
   /// What lies between two runs, left to right.
@@ -264,10 +321,17 @@ private:
     out.insert(out.end(), way.begin(), way.end());
   }
 
+  /// A gap between a layer and the next that an outline already follows, by nodes.
+  struct Cleft {
+    int layer;
+    double from, to;
+  };
+
   const LayerStack<2>& s_;
   const std::vector<char>& alive_;
   const std::vector<double>& least_;
   std::vector<Column> columns_;
+  std::vector<Cleft> clefts_;
 };
 
 } // namespace
