@@ -150,18 +150,19 @@ private:
       return j;
     }
     j.parted = true;
-    double gap = j.inner.gap;
-    for (int i = k; there(outer, outer_is_right ? i : i - 1); i += step) {
+    double excess = j.inner.gap - least_[at(k)];
+    // One element short of the outer layer's other end: a layer that has come off altogether hangs on there.
+    for (int i = k; there(outer, outer_is_right ? i + 1 : i - 2); i += step) {
       const OnPlane next = nearest(inner, face, place(i + step, other), j.inner.segment);
       if (next.segment < 0) {
         break;
       }
-      const double least = least_[at(i + step)];
-      const double part = next.gap <= least ? (gap - least) / (gap - next.gap) : 1.0;
+      const double there_excess = next.gap - least_[at(i + step)];
+      const double part = there_excess <= 0 ? excess / (excess - there_excess) : 1.0;
       j.out = i + step * part;
       j.inner = part < 1 ? nearest(inner, face, point(j.out, other), next.segment) : next;
-      gap = next.gap;
-      if (next.gap <= least) {
+      excess = there_excess;
+      if (there_excess <= 0) {
         break;
       }
     }
@@ -214,6 +215,13 @@ private:
       const bool outer_is_right = lower ? left.layer > right.layer : left.layer < right.layer;
       const Run &outer = outer_is_right ? right : left, &inner = outer_is_right ? left : right;
       junctions.push_back(meet(outer.layer, inner.layer, edges[r], outer_is_right, lower));
+      Junction& j = junctions.back();
+      const auto same = [&](const Cleft& c) { return c.layer == std::min(outer.layer, inner.layer) && c.from <= std::max<double>(j.edge, j.out) && std::min<double>(j.edge, j.out) <= c.to; };
+      if (j.parted && std::any_of(clefts_.begin(), clefts_.end(), same)) { // come off from one hole to the next
+        j.parted = false;
+        j.out = j.edge;
+        j.inner = nearest(inner.layer, plane(inner.layer, lower), place(j.edge, plane(outer.layer, !lower)), outer_is_right ? j.edge - 1 : j.edge);
+      }
       if (junctions.back().parted) {
         clefts_.push_back({std::min(outer.layer, inner.layer), std::min<double>(edges[r], junctions.back().out), std::max<double>(edges[r], junctions.back().out)});
       }
