@@ -272,8 +272,8 @@ private:
         const double ga = gap_over(layer, a), gb = gap_over(layer, b), before = gap_over(layer, a - 1), after = gap_over(layer, b + 1);
         const double from = before > 0 ? a - 1.0 : a - ga / (ga - before), to = after > 0 ? b + 1.0 : b + gb / (gb - after);
         const bool known = std::any_of(clefts_.begin(), clefts_.end(), [&](const Cleft& c) { return c.layer == layer && c.from <= to && from <= c.to; });
-        if (!known) {
-          out.push_back(gap_outline(layer, from, to));
+        if (std::vector<OutlineVertex> loop = known ? std::vector<OutlineVertex>{} : gap_outline(layer, from, to); !loop.empty()) {
+          out.push_back(std::move(loop));
         }
         a = b + 1;
       }
@@ -283,6 +283,9 @@ private:
   std::vector<OutlineVertex> gap_outline(int layer, double from, double to) const {
     const int face = plane(layer, false), other = plane(layer + 1, true);
     const OnPlane low = nearest(layer + 1, other, point(from, face), static_cast<int>(from)), high = nearest(layer + 1, other, point(to, face), static_cast<int>(to));
+    if (low.segment < 0 || high.segment < low.segment) {
+      return {};
+    }
     std::vector<OutlineVertex> loop = {between(low.segment, low.part, other, 0, 0)};
     for (int i = low.segment + 1; i <= high.segment; ++i) {
       loop.push_back(vertex(i, other, 0, 0));

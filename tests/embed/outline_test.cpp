@@ -1,0 +1,105 @@
+// Outlines of stacks with holes: what they enclose is the layers that are left and the gaps that a mesh does not see.
+#include "ale/embed/layer_body.hpp"
+#include "ale/embed/outline.hpp"
+#include "tests/layers/stacks.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace ballast {
+namespace {
+
+constexpr double mm = 1e-3;
+
+/// Two layers 8 mm wide and 1 mm thick each; the lower one has lost its first three elements.
+LayerStack<2> torn_stack() {
+  LayerInput in;
+  in.name = "two";
+  in.model = HookeSolid{1e9, 0.3, 1000};
+  in.lines[0] = even_lines(0, 8 * mm, 8);
+  in.levels = even_lines(0, 2 * mm, 2);
+  in.layers = 2;
+  LayerStack<2> s = make_stack<2>(in);
+  for (int i = 0; i < 3; ++i) {
+    s.alive[s.element(i, 0, 0)] = 0;
+  }
+  return s;
+}
+
+/// Moves the lower layer's nodes.
+template <class Move> void move_lower(LayerStack<2>& s, Move&& move) {
+  for (int plane = 0; plane < 2; ++plane) {
+    for (int i = 0; i <= 8; ++i) {
+      const std::size_t n = s.node(i, 0, plane);
+      move(s.position[0][n], s.position[1][n]);
+    }
+  }
+}
+
+double area(const std::vector<OutlineVertex>& loop) {
+  double twice = 0;
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const auto &a = loop[k].x, &b = loop[(k + 1) % loop.size()].x;
+    twice += a[0] * b[1] - a[1] * b[0];
+  }
+  return 0.5 * twice;
+}
+
+double enclosed(const LayerStack<2>& s, double least) {
+  double sum = 0;
+  for (const Outline& o : find_outlines(s, s.alive, std::vector<double>(9, least))) {
+    std::vector<OutlineVertex> loop = o.lower;
+    loop.insert(loop.end(), o.upper.rbegin(), o.upper.rend());
+    sum += area(loop);
+    for (const auto& gap : o.gaps) {
+      sum += area(gap);
+    }
+  }
+  return sum;
+}
+
+TEST(Outline, HoldsWhatIsLeftWhereLayersHaveSlid) {
+  for (const double slide : {0.0, 0.6, -0.4, 1.7}) {
+    LayerStack<2> s = torn_stack();
+    move_lower(s, [&](double& x, double&) { x += slide * mm; });
+    EXPECT_NEAR(enclosed(s, 0.3 * mm), 13 * mm * mm, 1e-9 * mm * mm) << slide;
+  }
+}
+
+TEST(Outline, OpensACleftWhereLayersHaveParted) {
+  LayerStack<2> s = torn_stack();
+  move_lower(s, [](double& x, double& z) { z -= std::max(0.0, (8 * mm - x) / 5); }); // 1 mm at the hole's edge, none at the end
+  // The gap is covered where it is below 0.3 mm: a triangle 1.5 mm long.
+  EXPECT_NEAR(enclosed(s, 0.3 * mm), (13 + 0.5 * 0.3 * 1.5) * mm * mm, 1e-6 * mm * mm);
+  const LayerBody<2> body(s, s.alive, std::vector<double>(9, 0.3 * mm), 0.5 * mm);
+  EXPECT_FALSE(body.inside({4 * mm, 0.6 * mm})); // in the cleft
+  EXPECT_TRUE(body.inside({7.8 * mm, 0.98 * mm})); // in what is closed of it
+  EXPECT_TRUE(body.inside({4 * mm, -0.3 * mm}));  // in the flap
+  EXPECT_TRUE(body.inside({4 * mm, 1.5 * mm}));
+  EXPECT_FALSE(body.inside({4 * mm, 2.5 * mm}));
+  EXPECT_FALSE(body.inside({2 * mm, 0.5 * mm})); // in the hole
+}
+
+TEST(Outline, KeepsAGapThatIsPinchedOff) {
+  LayerStack<2> s = torn_stack();
+  move_lower(s, [](double& x, double& z) { z -= x > 5.5 * mm && x < 7.5 * mm ? 1 * mm : 0.0; }); // a sag of 1 mm between nodes at 5 and 8 mm
+  const double sag = 0.5 * (1 + 3) * 1, tips = 2 * 0.5 * 0.3 * 0.3; // its area; of it what is narrower than 0.3 mm
+  EXPECT_NEAR(enclosed(s, 0.3 * mm), (13 + tips) * mm * mm, 0.01 * sag * mm * mm);
+  const LayerBody<2> body(s, s.alive, std::vector<double>(9, 0.3 * mm), 0.5 * mm);
+  EXPECT_FALSE(body.inside({6.5 * mm, 0.5 * mm}));
+  EXPECT_TRUE(body.inside({6.5 * mm, -0.5 * mm}));
+}
+
+/// A layer that has come off altogether: above the stack is still outside.
+TEST(Outline, StaysOneBodyWhereALayerHasComeOff) {
+  LayerStack<2> s = torn_stack();
+  move_lower(s, [](double&, double& z) { z -= 2 * mm; });
+  const LayerBody<2> body(s, s.alive, std::vector<double>(9, 0.3 * mm), 0.5 * mm);
+  EXPECT_FALSE(body.inside({5 * mm, 3 * mm}));
+  EXPECT_TRUE(body.inside({5 * mm, 1.5 * mm}));
+  EXPECT_FALSE(body.inside({5 * mm, 0 * mm}));
+  EXPECT_TRUE(body.inside({5 * mm, -1.5 * mm}));
+}
+
+} // namespace
+} // namespace ballast

@@ -1,0 +1,100 @@
+// What clings to a stack's nodes moves with them: impulses of folds and slidelines keep the momentum of both.
+#include "ale/layers/layer_erosion.hpp"
+#include "ale/layers/layer_folds.hpp"
+#include "ale/layers/layer_load.hpp"
+#include "ale/layers/slideline.hpp"
+#include "tests/layers/stacks.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace ballast {
+namespace {
+
+LayerStack<2> two_layers() {
+  LayerInput in;
+  in.name = "two";
+  in.model = HookeSolid{1e9, 0.3, 1000};
+  in.lines[0] = even_lines(0, 6e-3, 6);
+  in.levels = even_lines(0, 2e-3, 2);
+  in.layers = 2;
+  return make_stack<2>(in);
+}
+
+/// Every second node of all planes carries ten times its mass along a slanted normal.
+LayerLoad<2> slanted_load(const LayerStack<2>& s) {
+  LayerLoad<2> load;
+  for (std::size_t n = 0; n < s.node_count(); n += 2) {
+    const Eigen::Vector2d normal(std::sin(0.4), std::cos(0.4));
+    load.node.push_back(n);
+    load.force.emplace_back(0, 0);
+    load.added.push_back(10 * s.mass[n] * normal * normal.transpose());
+  }
+  load.spread(s.node_count());
+  return load;
+}
+
+std::array<double, 2> momentum(const LayerStack<2>& s, const LayerLoad<2>& load) {
+  Eigen::Vector2d sum(0, 0);
+  for (std::size_t n = 0; n < s.node_count(); ++n) {
+    const Eigen::Vector2d v(s.velocity[0][n], s.velocity[1][n]);
+    sum += s.mass[n] * v + load.by_node[n] * v;
+  }
+  return {sum[0], sum[1]};
+}
+
+void expect_same(const std::array<double, 2>& a, const std::array<double, 2>& b, double scale) {
+  for (std::size_t d = 0; d < 2; ++d) {
+    EXPECT_NEAR(a[d], b[d], 1e-13 * scale);
+  }
+}
+
+TEST(LayerLoad, FoldsKeepMomentum) {
+  LayerStack<2> s = two_layers();
+  const LayerLoad<2> load = slanted_load(s);
+  for (std::size_t n = 0; n < s.node_count(); ++n) {
+    s.velocity[0][n] = 100 * std::sin(3.0 * static_cast<double>(n));
+    s.velocity[1][n] = 50 * std::cos(5.0 * static_cast<double>(n));
+  }
+  const auto before = momentum(s, load);
+  const std::vector<double> was = s.velocity[0];
+  LayerLedger ledger;
+  ThreadPool pool(1);
+  stop_folds<2>(s, 1e-5, held_nodes(s), ledger, pool, &load); // edges would close by their length
+  EXPECT_NE(was, s.velocity[0]);
+  expect_same(momentum(s, load), before, 100 * 12e-3);
+}
+
+TEST(LayerLoad, SlidelinesKeepMomentum) {
+  LayerStack<2> s = two_layers();
+  const LayerLoad<2> load = slanted_load(s);
+  for (std::size_t n = 0; n < s.node_count(); ++n) {
+    s.velocity[1][n] = n < s.node(0, 0, 2) ? 80 : -30; // the lower layer runs into the upper one
+  }
+  const auto before = momentum(s, load);
+  SlidelineState<2> state;
+  ThreadPool pool(1);
+  const SlidelineReport report = resolve_slidelines(s, 1e-7, s.velocity, pool, {}, state, &load);
+  EXPECT_GT(report.contact.impulse, 0);
+  expect_same(momentum(s, load), before, 80 * 12e-3);
+  for (int i = 0; i <= 6; ++i) {
+    EXPECT_LE(s.velocity[1][s.node(i, 0, 1)], s.velocity[1][s.node(i, 0, 2)] + 0.1);
+  }
+}
+
+TEST(LayerErosion, GoesByBothFamiliesOrEither) {
+  for (const bool either : {false, true}) {
+    LayerStack<2> s = two_layers();
+    s.guard.either = either;
+    for (std::size_t point = 0; point < 2; ++point) {
+      s.largest[point][0][s.element(2, 0, 0)] = 0.6; // the warp alone is lost
+    }
+    LayerLedger ledger;
+    erode<2>(s, {0.5, 0.5}, ledger);
+    EXPECT_EQ(s.alive[s.element(2, 0, 0)] == 0, either);
+    EXPECT_EQ(ledger.eroded_elements, either ? 1 : 0);
+  }
+}
+
+} // namespace
+} // namespace ballast
