@@ -116,14 +116,18 @@ private:
       const double t = length > 0 ? std::clamp((off[0] * along[0] + off[1] * along[1]) / length, 0.0, 1.0) : 0.0;
       return OnPlane{i, t, std::hypot(off[0] - t * along[0], off[1] - t * along[1])};
     };
-    const int from = there(layer, start) ? start : there(layer, start - 1) ? start - 1 : there(layer, start + 1) ? start + 1 : -1;
+    const int n = s_.grid.elements[0];
+    int from = -1;
+    for (int off = 0; off < n && from < 0; ++off) {
+      from = there(layer, start + off) ? start + off : there(layer, start - off) ? start - off : -1;
+    }
     if (from < 0) {
       return {};
     }
     OnPlane best = on(from);
-    for (const int step : {-1, 1}) {
-      for (int i = from + step; there(layer, i); i += step) {
-        const OnPlane next = on(i);
+    for (const int step : {-1, 1}) { // over holes, too
+      for (int i = from + step; i >= 0 && i < n; i += step) {
+        const OnPlane next = there(layer, i) ? on(i) : best;
         if (next.gap > best.gap) {
           break;
         }
@@ -153,7 +157,7 @@ private:
     double excess = j.inner.gap - least_[at(k)];
     // One element short of the outer layer's other end: a layer that has come off altogether hangs on there.
     for (int i = k; there(outer, outer_is_right ? i + 1 : i - 2); i += step) {
-      const OnPlane next = nearest(inner, face, place(i + step, other), j.inner.segment);
+      const OnPlane next = nearest(inner, face, place(i + step, other), outer_is_right ? i : i - 1);
       if (next.segment < 0) {
         break;
       }

@@ -66,6 +66,17 @@ TEST(Outline, HoldsWhatIsLeftWhereLayersHaveSlid) {
   }
 }
 
+/// The layer next to the torn one has a hole of its own where the edge lies, and the two have not parted.
+TEST(Outline, ReachesOverAHoleInTheNextLayer) {
+  LayerStack<2> s = torn_stack();
+  s.alive[s.element(3, 0, 1)] = 0;
+  EXPECT_NEAR(enclosed(s, 0.3 * mm), 12 * mm * mm, 1e-9 * mm * mm);
+  const LayerBody<2> body(s, s.alive, std::vector<double>(9, 0.3 * mm), 0.5 * mm);
+  EXPECT_FALSE(body.inside({3.5 * mm, 1.5 * mm}));
+  EXPECT_TRUE(body.inside({3.5 * mm, 0.5 * mm}));
+  EXPECT_FALSE(body.inside({7 * mm, 2.5 * mm}));
+}
+
 TEST(Outline, OpensACleftWhereLayersHaveParted) {
   LayerStack<2> s = torn_stack();
   move_lower(s, [](double& x, double& z) { z -= std::max(0.0, (8 * mm - x) / 5); }); // 1 mm at the hole's edge, none at the end
