@@ -162,19 +162,6 @@ template <int Dim, class Row> void for_node_rows(const Block<Dim>& b, ThreadPool
   });
 }
 
-/// No jump at nodes that hold only one of the two, or nothing: slivers of them were dropped since the jump was made.
-template <int Dim> void settle_jumps(Block<Dim>& b, ThreadPool& pool) {
-  for_node_rows(b, pool, [&](int r, Span nodes) {
-    const double *mass = b.node_mass.row(r), *sliding = b.sliding.node_mass.row(r);
-    for (auto& component : b.sliding.jump) {
-      double* jump = component.row(r);
-      for (int i = nodes.begin; i < nodes.end; ++i) {
-        jump[i] = sliding[i] > 0 && sliding[i] < mass[i] ? jump[i] : 0.0;
-      }
-    }
-  });
-}
-
 /// Nodes without mass rest: nothing there moves.
 template <int Dim> void rest_massless_nodes(Block<Dim>& b, ThreadPool& pool) {
   for_node_rows(b, pool, [&](int r, Span nodes) {
@@ -210,6 +197,18 @@ long order_at(const Motion& motion, long step) {
 }
 
 } // namespace
+
+template <int Dim> void settle_jumps(Block<Dim>& b, ThreadPool& pool) {
+  for_node_rows(b, pool, [&](int r, Span nodes) {
+    const double *mass = b.node_mass.row(r), *sliding = b.sliding.node_mass.row(r);
+    for (auto& component : b.sliding.jump) {
+      double* jump = component.row(r);
+      for (int i = nodes.begin; i < nodes.end; ++i) {
+        jump[i] = sliding[i] > 0 && sliding[i] < mass[i] ? jump[i] : 0.0;
+      }
+    }
+  });
+}
 
 template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step) {
   place_target(b, *scene.pool);
@@ -263,5 +262,8 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
 
 template void remap_block<2>(Scene<2>&, Block<2>&, long);
 template void remap_block<3>(Scene<3>&, Block<3>&, long);
+
+template void settle_jumps<2>(Block<2>&, ThreadPool&);
+template void settle_jumps<3>(Block<3>&, ThreadPool&);
 
 } // namespace ballast

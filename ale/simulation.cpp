@@ -40,6 +40,9 @@ template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
       remap_block(scene, block, clock.step);
     } else if (Embedding<Dim>* e = embedding_of(scene, block)) {
       pool_embedded(scene, *e, block);
+      if (block.any_sliding()) {
+        settle_jumps(block, *scene.pool);
+      }
     }
     new_state(scene, block, due);
     if (embedding_of(scene, block) == nullptr) {
