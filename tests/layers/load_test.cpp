@@ -21,10 +21,10 @@ LayerStack<2> two_layers() {
   return make_stack<2>(in);
 }
 
-/// Every second node of all planes carries ten times its mass along a slanted normal.
+/// Every second node of the lower layer carries ten times its mass along a slanted normal.
 LayerLoad<2> slanted_load(const LayerStack<2>& s) {
   LayerLoad<2> load;
-  for (std::size_t n = 0; n < s.node_count(); n += 2) {
+  for (std::size_t n = 0; n < s.node(0, 0, 2); n += 2) {
     const Eigen::Vector2d normal(std::sin(0.4), std::cos(0.4));
     load.node.push_back(n);
     load.force.emplace_back(0, 0);
