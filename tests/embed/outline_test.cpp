@@ -63,6 +63,15 @@ TEST(Outline, HoldsWhatIsLeftWhereLayersHaveSlid) {
     LayerStack<2> s = torn_stack();
     move_lower(s, [&](double& x, double&) { x += slide * mm; });
     EXPECT_NEAR(enclosed(s, 0.3 * mm), 13 * mm * mm, 1e-9 * mm * mm) << slide;
+    // Between the two layers, past the edge: inside, whichever face is nearest.
+    const LayerBody<2> body(s, s.alive, std::vector<double>(9, 0.3 * mm), 0.5 * mm);
+    for (const double off : {0.05, 0.2, 0.35}) {
+      for (const double z : {0.9, 1.1}) {
+        BodyFoot<2> foot;
+        ASSERT_TRUE(body.foot({(3 + slide + off) * mm, z * mm}, 2 * mm, foot));
+        EXPECT_LT(foot.level, 0) << slide << ' ' << off << ' ' << z;
+      }
+    }
   }
 }
 
