@@ -70,5 +70,22 @@ template <int Dim> double whole_volume(const Block<Dim>& b, const std::array<Row
   return v.back();
 }
 
+/// Velocity component (m/s) of the mass at a node: where what slides meets the rest the node need not move so (remap/mesh.hpp, Sliding).
+template <int Dim>
+double mean_velocity(const Block<Dim>& b, const std::array<RowField, Dim>& velocity, const std::array<RowField, Dim>& jump, std::size_t d, int r, int i) {
+  const double u = velocity[d].row(r)[i], mass = b.node_mass.row(r)[i];
+  if (!b.any_sliding() || !(mass > 0)) {
+    return u;
+  }
+  const double sliding = b.sliding.node_mass.row(r)[i];
+  return u + (sliding / mass - remap::node_follows(sliding, mass)) * jump[d].row(r)[i];
+}
+
+/// All that is at a node moves faster by `change` (m/s) in one component; J of kinetic energy that it gains.
+template <int Dim> double shift_velocity(Block<Dim>& b, std::size_t d, int r, int i, double change) {
+  const double mean = mean_velocity<Dim>(b, b.velocity, b.sliding.jump, d, r, i);
+  b.velocity[d].row(r)[i] += change;
+  return b.node_mass.row(r)[i] * change * (mean + 0.5 * change);
+}
 
 } // namespace ballast

@@ -1,42 +1,91 @@
 // Momentum goes corner by corner with the mass, one transfer after the other, at the velocity that the corner it leaves has by then.
+// What slides and the rest have velocities, and momenta, of their own (remap/mesh.hpp, Sliding).
 #include "ale/embedding_pass.hpp"
 
 namespace ballast {
 
-template <int Dim> void EmbeddedRemap<Dim>::move_momentum() {
-  std::vector<std::size_t> nodes;
-  std::vector<int> row, index;
-  std::vector<int> of(static_cast<std::size_t>(g_.node_pitch()) * static_cast<std::size_t>(g_.node_rows()), -1);
-  std::vector<std::array<double, Dim>> momentum, least, most; // of the velocities that meet at a node
-  std::vector<std::array<int, 3>> place;
-  std::vector<double> mass; // as it goes
-  const auto entry = [&](const std::array<int, 3>& n) {
-    const int r = g_.node_row(n[1], n[2]);
-    int& at_node = of[node_at(g_, r, n[0])];
-    if (at_node < 0) {
-      at_node = static_cast<int>(momentum.size());
-      row.push_back(r);
-      index.push_back(n[0]);
-      std::array<double, Dim> p{};
-      for (std::size_t d = 0; d < Dim; ++d) {
-        p[d] = b_.node_mass.row(r)[n[0]] * b_.velocity[d].row(r)[n[0]];
+namespace {
+
+/// What one group holds of a node.
+template <int Dim> struct NodeShare {
+  double start = 0, mass = 0; ///< kg, as it goes
+  std::array<double, Dim> velocity = {}, momentum = {};
+  std::array<double, Dim> least, most; ///< of the velocities that meet there
+};
+
+template <int Dim> struct PassNode {
+  std::array<int, 3> at;
+  int row;
+  std::array<NodeShare<Dim>, 2> share;
+};
+
+template <int Dim> double group_mass(const Block<Dim>& b, int r, int i, std::size_t group) {
+  const double mass = b.node_mass.row(r)[i], sliding = b.any_sliding() ? std::min(b.sliding.node_mass.row(r)[i], mass) : 0.0;
+  return group == 1 ? sliding : mass - sliding;
+}
+
+template <int Dim> double kinetic(const NodeShare<Dim>& s, double mass) {
+  double square = 0;
+  for (const double u : s.velocity) {
+    square += u * u;
+  }
+  return 0.5 * mass * square;
+}
+
+/// A group's velocity from its momentum.
+template <int Dim> void set_velocity(NodeShare<Dim>& s) {
+  for (std::size_t d = 0; d < Dim && s.mass > 0; ++d) {
+    s.velocity[d] += (s.momentum[d] - s.mass * s.velocity[d]) / s.mass;
+  }
+}
+
+/// The node's velocity and jump from its groups'.
+template <int Dim> void put_back(Block<Dim>& b, const PassNode<Dim>& n) {
+  const int r = n.row, i = n.at[0];
+  const auto& [rest, slides] = n.share;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    double& u = b.velocity[d].row(r)[i];
+    if (rest.mass > 0 && slides.mass > 0) {
+      const double jump = slides.velocity[d] - rest.velocity[d];
+      b.sliding.jump[d].row(r)[i] = jump;
+      u = rest.velocity[d] + remap::node_follows(b.sliding.node_mass.row(r)[i], b.node_mass.row(r)[i]) * jump;
+    } else {
+      u = slides.mass > 0 ? slides.velocity[d] : rest.mass > 0 ? rest.velocity[d] : u;
+      if (b.any_sliding()) {
+        b.sliding.jump[d].row(r)[i] = 0;
       }
-      momentum.push_back(p);
-      std::array<double, Dim> u{};
-      for (std::size_t d = 0; d < Dim; ++d) {
-        u[d] = b_.velocity[d].row(r)[n[0]];
-      }
-      const bool held = b_.node_mass.row(r)[n[0]] > 0; // what holds nothing has no velocity of its own
-      least.push_back(u);
-      most.push_back(u);
-      if (!held) {
-        least.back().fill(std::numeric_limits<double>::infinity());
-        most.back().fill(-std::numeric_limits<double>::infinity());
-      }
-      place.push_back(n);
-      mass.push_back(b_.node_mass.row(r)[n[0]]);
     }
-    return static_cast<std::size_t>(at_node);
+  }
+}
+
+} // namespace
+
+template <int Dim> void EmbeddedRemap<Dim>::move_momentum() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<PassNode<Dim>> nodes;
+  std::vector<int> of(static_cast<std::size_t>(g_.node_pitch()) * static_cast<std::size_t>(g_.node_rows()), -1);
+  const auto entry = [&](const std::array<int, 3>& at) {
+    const int r = g_.node_row(at[1], at[2]), i = at[0];
+    int& where = of[node_at(g_, r, i)];
+    if (where < 0) {
+      where = static_cast<int>(nodes.size());
+      PassNode<Dim> n{at, r, {}};
+      for (const std::size_t group : {0, 1}) {
+        NodeShare<Dim>& s = n.share[group];
+        s.start = s.mass = group_mass(b_, r, i, group);
+        s.least.fill(infinity); // what holds nothing has no velocity of its own
+        s.most.fill(-infinity);
+        for (std::size_t d = 0; d < Dim; ++d) {
+          s.velocity[d] = velocity_of(b_, group == 1, d, r, i);
+          s.momentum[d] = s.mass * s.velocity[d];
+          if (s.mass > 0) {
+            s.least[d] = s.most[d] = s.velocity[d];
+          }
+        }
+      }
+      nodes.push_back(n);
+    }
+    return static_cast<std::size_t>(where);
   };
   const auto corner = [&](std::size_t c, int bits) {
     std::array<int, 3> n = cells_[c];
@@ -45,74 +94,78 @@ template <int Dim> void EmbeddedRemap<Dim>::move_momentum() {
     }
     return entry(n);
   };
-  for (const Transfer& t : transfer_) {
-    const auto from = static_cast<std::size_t>(t.from), to = static_cast<std::size_t>(t.to);
-    for (int bits = 0; bits < (1 << Dim); ++bits) {
-      const std::size_t a = corner(from, bits), z = corner(to, bits);
-      const double leaves = t.mass * corner_share(b_, bits, cells_[from][0], cells_[from][1], cells_[from][2]);
-      for (std::size_t d = 0; d < Dim; ++d) {
-        const double now = mass[a] > 0 ? momentum[a][d] / mass[a] : b_.velocity[d].row(row[a])[index[a]];
-        const double u = least[a][d] <= most[a][d] ? std::clamp(now, least[a][d], most[a][d]) : now, p = leaves * u;
-        momentum[a][d] -= p;
-        momentum[z][d] += p;
-        least[z][d] = std::min(least[z][d], u);
-        most[z][d] = std::max(most[z][d], u);
-      }
-      mass[a] -= leaves;
-      mass[z] += leaves;
-    }
-  }
-  const std::size_t met = momentum.size(); // what else is entered from here on takes what is too much
-  for (std::size_t n = 0; n < met; ++n) {
+  const auto for_neighbours = [&](const std::array<int, 3>& at, auto&& visit) {
     for (int q = 0; q < 2 * Dim; ++q) {
-      std::array<int, 3> to = place[n];
+      std::array<int, 3> to = at;
       const auto a = static_cast<std::size_t>(q / 2);
       to[a] += q % 2 == 0 ? -1 : 1;
       if (to[a] >= 0 && to[a] <= g_.cells[a]) {
-        entry(to);
+        visit(entry(to));
       }
     }
+  };
+  for (const Transfer& t : transfer_) {
+    const auto from = static_cast<std::size_t>(t.from), to = static_cast<std::size_t>(t.to);
+    for (int bits = 0; bits < (1 << Dim); ++bits) {
+      const std::size_t low = corner(from, bits), high = corner(to, bits); // entries move while they are made
+      NodeShare<Dim>&a = nodes[low].share[t.group], &z = nodes[high].share[t.group];
+      const double leaves = t.mass * corner_share(b_, bits, cells_[from][0], cells_[from][1], cells_[from][2]);
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const double now = a.mass > 0 ? a.momentum[d] / a.mass : a.velocity[d];
+        const double u = a.least[d] <= a.most[d] ? std::clamp(now, a.least[d], a.most[d]) : now, p = leaves * u;
+        a.momentum[d] -= p;
+        z.momentum[d] += p;
+        z.least[d] = std::min(z.least[d], u);
+        z.most[d] = std::max(z.most[d], u);
+      }
+      a.mass -= leaves;
+      z.mass += leaves;
+    }
+  }
+  const std::size_t met = nodes.size(); // what else is entered from here on takes what is too much
+  for (std::size_t n = 0; n < met; ++n) {
+    for_neighbours(std::array<int, 3>(nodes[n].at), [](std::size_t) {});
   }
   double before = 0, after = 0;
-  for (std::size_t n = 0; n < momentum.size(); ++n) {
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const double u = b_.velocity[d].row(row[n])[index[n]];
-      before += 0.5 * b_.node_mass.row(row[n])[index[n]] * u * u;
-    }
+  for (const PassNode<Dim>& n : nodes) {
+    before += kinetic(n.share[0], n.share[0].start) + kinetic(n.share[1], n.share[1].start);
   }
   compute_node_mass(b_, *scene_.pool);
-  // A node that more passes through than stays may be left with a speed that nothing there had: what is too much of its
-  // momentum goes to its heaviest neighbour, or out with an entry where there is none.
-  for (std::size_t n = 0; n < met; ++n) {
-    const double m = b_.node_mass.row(row[n])[index[n]];
-    std::size_t heaviest = n;
-    double weight = m;
-    for (int q = 0; q < 2 * Dim; ++q) {
-      std::array<int, 3> to = place[n];
-      const auto a = static_cast<std::size_t>(q / 2);
-      to[a] += q % 2 == 0 ? -1 : 1;
-      if (to[a] >= 0 && to[a] <= g_.cells[a] && b_.node_mass.row(g_.node_row(to[1], to[2]))[to[0]] > weight) {
-        heaviest = entry(to);
-        weight = b_.node_mass.row(g_.node_row(to[1], to[2]))[to[0]];
-      }
+  for (PassNode<Dim>& n : nodes) {
+    for (const std::size_t group : {0, 1}) {
+      n.share[group].mass = group_mass(b_, n.row, n.at[0], group);
     }
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const double u = m > 0 ? momentum[n][d] / m : 0.0;
-      const double kept = m > 0 && least[n][d] <= most[n][d] ? m * std::clamp(u, least[n][d], most[n][d]) : 0.0, excess = momentum[n][d] - kept;
-      momentum[n][d] = kept;
-      if (heaviest != n) {
-        momentum[heaviest][d] += excess;
-      } else {
-        scene_.ledger.momentum_out[d] += excess;
+  }
+  // A node that more passes through than stays may be left with a speed that nothing there had: what is too much of its
+  // momentum goes to its heaviest neighbour, to what else there is at the node, or out with an entry.
+  for (std::size_t n = 0; n < met; ++n) {
+    for (const std::size_t group : {0, 1}) {
+      NodeShare<Dim>& s = nodes[n].share[group];
+      NodeShare<Dim>* heaviest = nodes[n].share[1 - group].mass > 0 ? &nodes[n].share[1 - group] : nullptr;
+      double weight = s.mass;
+      for_neighbours(std::array<int, 3>(nodes[n].at), [&](std::size_t q) {
+        NodeShare<Dim>& other = nodes[q].share[group];
+        if (other.mass > weight) {
+          heaviest = &other;
+          weight = other.mass;
+        }
+      });
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const double u = s.mass > 0 ? s.momentum[d] / s.mass : 0.0;
+        const double kept = s.mass > 0 && s.least[d] <= s.most[d] ? s.mass * std::clamp(u, s.least[d], s.most[d]) : 0.0, excess = s.momentum[d] - kept;
+        s.momentum[d] = kept;
+        (heaviest != nullptr ? heaviest->momentum[d] : scene_.ledger.momentum_out[d]) += excess;
       }
     }
   }
-  for (std::size_t n = 0; n < momentum.size(); ++n) {
-    const double m = b_.node_mass.row(row[n])[index[n]];
-    for (std::size_t d = 0; d < Dim; ++d) {
-      double& u = b_.velocity[d].row(row[n])[index[n]];
-      u += m > 0 ? (momentum[n][d] - m * u) / m : 0.0;
-      after += 0.5 * m * u * u;
+  for (PassNode<Dim>& n : nodes) {
+    const auto old = n.share;
+    for (NodeShare<Dim>& s : n.share) {
+      set_velocity(s);
+      after += kinetic(s, s.mass);
+    }
+    if (n.share[0].velocity != old[0].velocity || n.share[1].velocity != old[1].velocity || n.share[0].mass != old[0].start || n.share[1].mass != old[1].start) {
+      put_back(b_, n);
     }
   }
   scene_.ledger.remap_kinetic_loss += before - after;

@@ -38,7 +38,10 @@ private:
   struct Transfer {
     int from, to; ///< places in cells_
     double mass;
+    std::size_t group;
   };
+  /// Of a material: 0, or 1 if it slides along the rest. The two have velocities of their own (remap/mesh.hpp, Sliding).
+  std::size_t group_of(int m) const { return b_.materials[static_cast<std::size_t>(m)].slides ? 1 : 0; }
 
   std::size_t dense(const std::array<int, 3>& c) const { return e_.cell_at(g_, g_.cell_row(c[1], c[2]), c[0]); }
   bool inside(const std::array<int, 3>& c) const {
@@ -59,6 +62,26 @@ private:
       sum += is_void(m) ? 0.0 : at(c, m, 1);
     }
     return sum;
+  }
+  /// By group.
+  std::array<double, 2> masses_of(std::size_t c) const {
+    std::array<double, 2> sum = {0, 0};
+    for (int m = 0; m < materials(); ++m) {
+      sum[group_of(m)] += is_void(m) ? 0.0 : at(c, m, 1);
+    }
+    return sum;
+  }
+  void transfer(std::size_t from, std::size_t to, double mass, std::size_t group) {
+    if (mass != 0) {
+      transfer_.push_back({static_cast<int>(mass > 0 ? from : to), static_cast<int>(mass > 0 ? to : from), std::abs(mass), group});
+    }
+  }
+  /// What has gone from a cell to another since it held `before`.
+  void transfer_change(std::size_t from, std::size_t to, const std::array<double, 2>& before) {
+    const std::array<double, 2> now = masses_of(from);
+    for (const std::size_t group : {0, 1}) {
+      transfer(from, to, before[group] - now[group], group);
+    }
   }
 
   void find_levels_on_the_way();

@@ -51,10 +51,11 @@ template <int Dim> void EmbeddedRemap<Dim>::settle() {
   std::vector<Contents> pool;
   std::vector<char> pooled;
   pool_contents(root_, pool, pooled);
-  std::vector<double> before(cells_.size()), volume(cells_.size());
+  std::vector<std::array<double, 2>> before(cells_.size());
+  std::vector<double> volume(cells_.size());
   std::vector<char> stirred(cells_.size(), 0);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    before[c] = mass_of(c);
+    before[c] = masses_of(c);
     stirred[static_cast<std::size_t>(root_[c])] |= touched_[c];
   }
   for (int m = 0; m < materials(); ++m) {
@@ -74,10 +75,8 @@ template <int Dim> void EmbeddedRemap<Dim>::settle() {
     }
   }
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const double change = mass_of(c) - before[c];
-    if (root_[c] != static_cast<int>(c) && change != 0) {
-      const int root = root_[c], cell = static_cast<int>(c);
-      transfer_.push_back({change > 0 ? root : cell, change > 0 ? cell : root, std::abs(change)});
+    if (root_[c] != static_cast<int>(c)) {
+      transfer_change(c, static_cast<std::size_t>(root_[c]), before[c]);
     }
   }
 }
@@ -105,12 +104,13 @@ template <int Dim> void EmbeddedRemap<Dim>::bury() {
       to_volume_[c] = mass > 0 ? from_volume_[c] : 0.0;
       continue;
     }
+    const std::array<double, 2> before = masses_of(c);
     for (std::size_t n = 0; n < contents_[c].x.size(); ++n) {
       contents_[root].x[n] += contents_[c].x[n];
       contents_[c].x[n] = 0;
     }
     if (mass != 0) {
-      transfer_.push_back({static_cast<int>(c), next_root_[c], mass});
+      transfer_change(c, root, before);
       touched_[root] = touched_[c] = 1;
     }
     next_root_[c] = static_cast<int>(c);
@@ -156,7 +156,7 @@ template <int Dim> void EmbeddedRemap<Dim>::hand_on_wisps() {
         at(to, m, f) += at(c, m, f);
         at(c, m, f) = 0;
       }
-      transfer_.push_back({static_cast<int>(c), static_cast<int>(to), mass});
+      transfer(c, to, mass, group_of(m));
       touched_[c] = touched_[to] = 1;
     }
   }
@@ -242,9 +242,9 @@ template <int Dim> void EmbeddedRemap<Dim>::equalise() {
     const double gap = pool[root].x[static_cast<std::size_t>(offset_.back())];
     const bool full = held > rooms || (!(gap > 1e-9 * rooms) && held > largest_stretch * rooms);
     const double scale = full ? rooms / held : 1.0, hollow = full ? 0.0 : rooms - held;
-    std::vector<double> mass_before;
+    std::vector<std::array<double, 2>> before;
     for (const std::size_t c : members) {
-      mass_before.push_back(mass_of(c));
+      before.push_back(masses_of(c));
       if (!valid) {
         for (int m = 0; m < materials(); ++m) {
           const double v = is_void(m) ? hollow : scale * std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
@@ -269,10 +269,10 @@ template <int Dim> void EmbeddedRemap<Dim>::equalise() {
     }
     std::size_t q = 0;
     for (const std::size_t c : members) {
-      const double change = mass_of(c) - mass_before[q++];
-      if (c != root && change != 0) {
-        transfer_.push_back({change > 0 ? static_cast<int>(root) : static_cast<int>(c), change > 0 ? static_cast<int>(c) : static_cast<int>(root), std::abs(change)});
+      if (c != root) {
+        transfer_change(c, root, before[q]);
       }
+      ++q;
     }
   }
 }

@@ -58,7 +58,7 @@ template <int Dim> void EmbeddedRemap<Dim>::find_special() {
     for (int j = 0; j < g_.cells[1]; ++j) {
       for (int i = 0; i < g_.cells[0]; ++i) {
         const std::size_t c = dense({i, j, k});
-        special_[c] = lag_.kind[c] != open_cell || target_.kind[c] != open_cell ? 1 : 0;
+        special_[c] = e_.kind[c] != open_cell || lag_.kind[c] != open_cell || target_.kind[c] != open_cell ? 1 : 0;
       }
     }
   }
@@ -114,7 +114,9 @@ template <int Dim> bool EmbeddedRemap<Dim>::holds_anything(const std::array<int,
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::gather() {
+  touched_.clear();
   for (const std::array<int, 3>& c : cells_) {
+    touched_.push_back(0);
     const int r = g_.cell_row(c[1], c[2]), i = c[0];
     const bool special = special_[dense(c)] != 0;
     const double volume = b_.volume.row(r)[i];
@@ -144,6 +146,7 @@ template <int Dim> void EmbeddedRemap<Dim>::gather() {
         left -= v;
       }
       now.x.back() = left;
+      touched_.back() = 1; // nothing is as it was, even where that leaves a pool alike
     }
     if (covered && !holds) {
       now.x.back() = 0; // the void of a covered cell is no room
@@ -155,7 +158,6 @@ template <int Dim> void EmbeddedRemap<Dim>::gather() {
   }
   start_ = contents_;
   transfer_.clear();
-  touched_.assign(cells_.size(), 0);
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::find_roots(const Config& config, const std::vector<double>& volume, std::vector<int>& root) {
@@ -275,7 +277,7 @@ template <int Dim> void EmbeddedRemap<Dim>::move_through_faces() {
         mass = f == 1 ? amount : mass;
       }
       if (!is_void(m)) {
-        transfer_.push_back({static_cast<int>(x.from), static_cast<int>(x.to), mass});
+        transfer(x.from, x.to, mass, group_of(m));
       }
       touched_[x.from] = touched_[x.to] = 1;
     }

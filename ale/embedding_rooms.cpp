@@ -212,20 +212,28 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
   }
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
   bool changed = take_room(b, e);
-  for_cells<Dim>(g, [&](int i, int j, int k) { // cells that have come free
+  const auto free_cell = [&](int i, int j, int k) {
     const int r = g.cell_row(j, k);
-    const std::size_t at = e.cell_at(g, r, i);
+    const double whole = whole_volume<Dim>(b, b.position, i, j, k);
+    double& volume = b.volume.row(r)[i];
+    if (std::abs(whole - volume) > 1e-12 * whole) {
+      const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
+      volume = whole;
+      set_volumes(b, r, i, whole, parts);
+      changed = true;
+    }
+  };
+  for_cells<Dim>(g, [&](int i, int j, int k) {
+    const std::size_t at = e.cell_at(g, g.cell_row(j, k), i);
     if (e.kind[at] == open_cell && before[at] != open_cell) {
-      const double whole = whole_volume<Dim>(b, b.position, i, j, k);
-      double& volume = b.volume.row(r)[i];
-      if (std::abs(whole - volume) > 1e-12 * whole) {
-        const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
-        volume = whole;
-        set_volumes(b, r, i, whole, parts);
-        changed = true;
-      }
+      free_cell(i, j, k);
     }
   });
+  for (const Pocket& p : e.pockets) { // that the last remap found free
+    if (e.kind[e.cell_at(g, g.cell_row(p.cell[1], p.cell[2]), p.cell[0])] == open_cell) {
+      free_cell(p.cell[0], p.cell[1], p.cell[2]);
+    }
+  }
   if (changed) {
     update_state(b, *scene.pool);
     update_traction(b, *scene.pool);
@@ -259,11 +267,11 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
   e.next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), &e.now, *scene.pool);
   const Levels<Dim>& next = e.next;
   for_cells<Dim>(g, [&](int i, int j, int k) {
-    if (open_corners<Dim>(g, next, i, j, k) == 1 << Dim) {
+    const int r = g.cell_row(j, k);
+    if (open_corners<Dim>(g, next, i, j, k) == 1 << Dim && e.kind_of(g, r, i) == open_cell) {
       return;
     }
     const LevelCell<Dim> c = level_cell<Dim>(g, b.next_position, next, {i, j, k});
-    const int r = g.cell_row(j, k);
     double& volume = b.next_volume.row(r)[i];
     const double open = c.covered() ? 0.0 : open_volume(c, b.axisymmetric), old = b.volume.row(r)[i];
     if (!holds_mass(b, r, i)) {

@@ -1,5 +1,5 @@
 // What touches a body and how they move together.
-#include "ale/embedding.hpp"
+#include "ale/embedding_cells.hpp"
 #include "ale/scene.hpp"
 
 #include "ale/layers/layer_account.hpp"
@@ -162,6 +162,15 @@ template <int Dim> double speed_along(const std::array<RowField, Dim>& velocity,
   return speed;
 }
 
+/// Of the node's mass, along the tie.
+template <int Dim> double mean_along(const Block<Dim>& b, const std::array<RowField, Dim>& velocity, const std::array<RowField, Dim>& jump, const NodeFoot<Dim>& f) {
+  double speed = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    speed += mean_velocity<Dim>(b, velocity, jump, d, f.row, f.index) * f.tie[d];
+  }
+  return speed;
+}
+
 template <int Dim> void add_along(std::array<RowField, Dim>& field, const NodeFoot<Dim>& f, double amount) {
   for (std::size_t d = 0; d < Dim; ++d) {
     field[d].row(f.row)[f.index] += amount * f.tie[d];
@@ -203,10 +212,9 @@ template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, B
     const std::array<int, 3> at = {std::min(node[0], g.cells[0] - 1), std::min(node[1], g.cells[1] - 1), Dim == 3 ? std::min(node[2], g.cells[2] - 1) : 0};
     if (std::max(mass, most) < trace * lightest * b.target_volume.row(g.cell_row(at[1], at[2]))[at[0]]) { // alone: it stops, its momentum in the ledger
       for (std::size_t d = 0; d < Dim; ++d) {
-        double& u = b.velocity[d].row(f.row)[f.index];
+        const double u = b.velocity[d].row(f.row)[f.index];
         scene.ledger.momentum_out[d] += mass * u;
-        scene.ledger.embedded_given += 0.5 * mass * u * u;
-        u = 0;
+        scene.ledger.embedded_given -= shift_velocity(b, d, f.row, f.index, -u);
       }
       continue;
     }
@@ -215,13 +223,12 @@ template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, B
     }
     const int r = g.node_row(heavy[1], heavy[2]), i = heavy[0];
     for (std::size_t d = 0; d < Dim; ++d) {
-      double &u = b.velocity[d].row(f.row)[f.index], &v = b.velocity[d].row(r)[i];
+      const double u = b.velocity[d].row(f.row)[f.index], v = b.velocity[d].row(r)[i];
       if (fixed_along(b, node, d) || fixed_along(b, heavy, d)) {
         continue;
       }
       const double both = (mass * u + most * v) / (mass + most);
-      scene.ledger.embedded_given += 0.5 * (mass * u * u + most * v * v - (mass + most) * both * both);
-      u = v = both;
+      scene.ledger.embedded_given -= shift_velocity(b, d, f.row, f.index, both - u) + shift_velocity(b, d, r, i, both - v);
     }
   }
 }
@@ -293,7 +300,7 @@ template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e) {
   for (const NodeFoot<Dim>& f : e.now.feet) {
     const double mass = b.node_mass.row(f.row)[f.index], now = speed_along<Dim>(b.velocity, f), then = surface_speed<Dim>(scene, f, f.carry);
     if (f.tied && mass > 0) {
-      scene.ledger.embedded_given += 0.5 * mass * (now * now - then * then);
+      scene.ledger.embedded_given -= mass * (then - now) * (mean_along<Dim>(b, b.velocity, b.sliding.jump, f) + 0.5 * (then - now));
       add_along<Dim>(b.velocity, f, then - now);
     } else if (!(f.foot.level > 0) && !(mass > 0) && is_own(e, b.grid, f)) { // nothing hangs on it: it goes along
       for (std::size_t d = 0; d < Dim; ++d) {
@@ -349,8 +356,9 @@ template <int Dim> void follow_layers(Scene<Dim>& scene, Embedding<Dim>& e, doub
     const double mass = b.node_mass.row(f.row)[f.index];
     const double then = surface_speed<Dim>(scene, f, f.carry);
     if (f.tied && mass > 0) {
-      const double old = speed_along<Dim>(b.velocity, f), unbound = speed_along<Dim>(b.next_velocity, f);
-      gained += 0.5 * mass * (then * then - old * old) - 0.5 * mass * (unbound - old) * (old + then);
+      const double unbound = speed_along<Dim>(b.next_velocity, f);
+      const double mean = 0.5 * (mean_along<Dim>(b, b.velocity, b.sliding.jump, f) + mean_along<Dim>(b, b.next_velocity, b.sliding.next_jump, f));
+      gained += mass * (then - unbound) * (mean + 0.5 * (then - unbound));
       add_along<Dim>(b.next_velocity, f, then - unbound);
       add_along<Dim>(b.next_position, f, 0.5 * dt * (then - unbound));
     } else if (!(f.foot.level > 0) && !(mass > 0) && is_own(e, b.grid, f)) {
