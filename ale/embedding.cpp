@@ -4,6 +4,7 @@
 namespace ballast {
 
 constexpr double reach_in_edges = 2.2; ///< of a node's longest edge: all nodes of cut cells and of their neighbours
+constexpr double through_in_edges = 1.6; ///< likewise: a body may be open on its other side in one of the node's cells
 
 template <int Dim> std::vector<LayerBody<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e) {
   std::vector<LayerBody<Dim>> out;
@@ -38,7 +39,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
     if (!near) {
       return;
     }
-    const double reach = reach_in_edges * edges_at<Dim>(g, position, i, j, k)[0];
+    const double edge = edges_at<Dim>(g, position, i, j, k)[0], reach = reach_in_edges * edge;
     NodeFoot<Dim> best{{}, -1, r, i, -1, false, {}, {}};
     for (std::size_t s = 0; s < bodies.size(); ++s) {
       BodyFoot<Dim> f;
@@ -54,7 +55,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       feet.push_back(best);
       BodyFoot<Dim> far;
       const auto body = static_cast<std::size_t>(best.stack);
-      if (!(level > 0) && best.foot.side < 2 && bodies[body].foot(x, 2 * reach, far, 1 - best.foot.side)) {
+      if (!(level > 0) && best.foot.side < 2 && bodies[body].foot(x, through_in_edges * edge, far, 1 - best.foot.side)) {
         feet.back().other = static_cast<int>(feet.size());
         feet.push_back({far, best.stack, r, i, -1, false, {}, {}});
       }
@@ -153,12 +154,13 @@ void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, 
     std::array<int, 1 << Dim> feet{};
     const LevelCell<Dim> c = level_cell<Dim>(g, position, levels, {i, j, k}, &feet);
     const double whole = whole_volume<Dim>(b, position, i, j, k);
-    if (!(open_volume(c, b.axisymmetric) > least_open * whole)) {
+    const double open = open_volume(c, b.axisymmetric);
+    if (!(open > least_open * whole)) {
       what = covered_cell;
       return;
     }
     what = static_cast<int>(cut.size());
-    cut.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false, -1, {}, 1, feet});
+    cut.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false, -1, {}, 1, feet, open});
   });
 }
 

@@ -53,6 +53,7 @@ template <int Dim> struct CutCell {
   std::array<int, 3> root_cell = {};
   double scaled = 1; ///< of a sliver: by what the step scaled its materials' volumes; the pool they belong to takes it back and shares it
   std::array<int, 1 << Dim> foot = {}; ///< of its corners, in Levels::feet, or -1
+  double open = 0; ///< m3 that the body leaves; what is there may have more where the body's shape has jumped
 };
 
 /// What pressure and deviator of a cut cell do in a step.

@@ -330,7 +330,7 @@ template <int Dim> void pool_embedded(Scene<Dim>& scene, Embedding<Dim>& e, Bloc
 template <int Dim> void restore_open_volumes(Embedding<Dim>& e, Block<Dim>& b) {
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
   for (const CutCell<Dim>& c : e.cut) {
-    b.volume.row(c.row)[c.cell[0]] = open_volume(level_cell<Dim>(b.grid, b.position, e.now, c.cell), b.axisymmetric);
+    b.volume.row(c.row)[c.cell[0]] = c.open;
   }
   for (const Pocket& p : e.pockets) {
     b.volume.row(b.grid.cell_row(p.cell[1], p.cell[2]))[p.cell[0]] = p.volume;

@@ -187,15 +187,13 @@ template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e) 
 
 /// Volumes that have changed though nothing moved: elements have gone. Void takes their room. True if there were any.
 template <int Dim> static bool take_room(Block<Dim>& b, Embedding<Dim>& e) {
-  const Grid& g = b.grid;
   bool changed = false;
   for (const CutCell<Dim>& c : e.cut) {
     const int r = c.row, i = c.cell[0];
-    const double open = open_volume(level_cell<Dim>(g, b.position, e.now, c.cell), b.axisymmetric);
     double& volume = b.volume.row(r)[i];
-    if (std::abs(open - volume) > 1e-12 * c.whole) {
+    if (std::abs(c.open - volume) > 1e-12 * c.whole) {
       const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
-      volume = std::max(open, (1 - most_squeeze) * (volume - parts.back()));
+      volume = std::max(c.open, (1 - most_squeeze) * (volume - parts.back()));
       set_volumes(b, r, i, volume, parts);
       changed = true;
     }
@@ -283,7 +281,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
     const double gap = b.materials.back().store.row(field::fraction, r)[i], held = (1 - gap) * old;
     const int kind = e.kind_of(g, r, i);
     const bool alone = kind >= 0 && is_sliver(e, b, r, i) && e.cut[static_cast<std::size_t>(kind)].root < 0; // no one's material flows after it
-    const double moved = kind >= 0 ? 2 * (e.force[static_cast<std::size_t>(kind)].half.volume - old) : 0.0;
+    const double moved = kind >= 0 ? 2 * (e.force[static_cast<std::size_t>(kind)].half.volume - e.cut[static_cast<std::size_t>(kind)].open) : 0.0;
     const double most = alone ? held * (1 + largest_jump) : std::max(old + moved, held) + largest_jump * old;
     const double pressed = kind >= 0 ? moved : -old * entered<Dim>(scene, e, b, {i, j, k});
     const double least = (1 - most_squeeze) * std::min(old + pressed, held);

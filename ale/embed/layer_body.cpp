@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ballast {
 
@@ -26,52 +27,31 @@ template <std::size_t N> std::array<double, N> minus(const std::array<double, N>
 
 } // namespace
 
-/// The body lies to the left.
+/// A layer lies to the left of its faces.
 template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least) {
+  layers_ = s.grid.layers;
   for (const Outline& o : find_outlines(s, alive, least)) {
-    const auto add = [&](const std::vector<OutlineVertex>& chain) {
-      const auto first = static_cast<int>(vertices_.size());
-      for (const OutlineVertex& v : chain) {
-        vertices_.push_back({v.node, v.weight, v.x, v.offset, {}, false});
-      }
-      return first;
-    };
-    const int lower = add(o.lower), upper = add(o.upper);
-    const int lower_end = lower + static_cast<int>(o.lower.size()) - 1, upper_end = upper + static_cast<int>(o.upper.size()) - 1;
-    const auto face = [&](int a, int b, int side) {
+    const auto first = static_cast<int>(vertices_.size()), count = static_cast<int>(o.loop.size());
+    for (const OutlineVertex& v : o.loop) {
+      vertices_.push_back({v.node, v.weight, v.x, v.offset, {}, false});
+    }
+    for (int k = 0; k < count; ++k) {
+      const OutlineVertex& v = o.loop[static_cast<std::size_t>(k)];
+      const int a = first + k, b = first + (k + 1) % count;
       auto &va = vertices_[static_cast<std::size_t>(a)], &vb = vertices_[static_cast<std::size_t>(b)];
       const std::array<double, 2> along = minus(vb.x, va.x);
       const double length = std::sqrt(dot(along, along));
-      if (!(length > 0)) {
-        return;
-      }
-      const std::array<double, 2> normal = {along[1] / length, -along[0] / length};
-      for (std::size_t d = 0; d < 2; ++d) {
-        va.normal[d] += normal[d];
-        vb.normal[d] += normal[d];
-      }
-      faces_.push_back({{a, b}, normal, side});
-    };
-    for (int k = lower; k < lower_end; ++k) {
-      face(k, k + 1, o.lower[static_cast<std::size_t>(k - lower)].side);
-    }
-    if (!o.goes_on_high) {
-      face(lower_end, upper_end, 2);
-    }
-    for (int k = upper_end; k > upper; --k) {
-      face(k, k - 1, o.upper[static_cast<std::size_t>(k - 1 - upper)].side);
-    }
-    if (!o.goes_on_low) {
-      face(upper, lower, 2);
-    }
-    for (const std::vector<OutlineVertex>& gap : o.gaps) {
-      const int first = add(gap), count = static_cast<int>(gap.size());
-      for (int k = 0; k < count; ++k) {
-        face(first + k, first + (k + 1) % count, gap[static_cast<std::size_t>(k)].side);
+      if (v.side < 0) {
+        va.end = vb.end = true;
+      } else if (length > 0) {
+        const std::array<double, 2> normal = {along[1] / length, -along[0] / length};
+        for (std::size_t d = 0; d < 2; ++d) {
+          va.normal[d] += normal[d];
+          vb.normal[d] += normal[d];
+        }
+        faces_.push_back({{a, b}, normal, v.side, o.layer, v.hidden});
       }
     }
-    vertices_[static_cast<std::size_t>(lower)].end = vertices_[static_cast<std::size_t>(upper)].end = o.goes_on_low;
-    vertices_[static_cast<std::size_t>(lower_end)].end = vertices_[static_cast<std::size_t>(upper_end)].end = o.goes_on_high;
   }
 }
 
@@ -131,26 +111,73 @@ template <int Dim> void LayerBody<Dim>::fill_bins(double bin) {
       }
     }
   };
-  first_.assign(count + 1, 0);
+  for (Bins& bins : binned_) {
+    bins.first.assign(count + 1, 0);
+  }
   for (const Face& f : faces_) {
-    for_bins(f, [&](std::size_t at) { ++first_[at + 1]; });
+    for_bins(f, [&](std::size_t at) { ++binned_[f.hidden ? 1 : 0].first[at + 1]; });
   }
-  for (std::size_t at = 0; at < count; ++at) {
-    first_[at + 1] += first_[at];
+  std::array<std::vector<int>, 2> next;
+  for (std::size_t kind = 0; kind < 2; ++kind) {
+    Bins& bins = binned_[kind];
+    for (std::size_t at = 0; at < count; ++at) {
+      bins.first[at + 1] += bins.first[at];
+    }
+    bins.face.resize(static_cast<std::size_t>(bins.first.back()));
+    next[kind].assign(bins.first.begin(), bins.first.end() - 1);
   }
-  binned_.resize(static_cast<std::size_t>(first_.back()));
-  std::vector<int> next(first_.begin(), first_.end() - 1);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    for_bins(faces_[f], [&](std::size_t at) { binned_[static_cast<std::size_t>(next[at]++)] = static_cast<int>(f); });
+    const std::size_t kind = faces_[f].hidden ? 1 : 0;
+    for_bins(faces_[f], [&](std::size_t at) { binned_[kind].face[static_cast<std::size_t>(next[kind][at]++)] = static_cast<int>(f); });
   }
 }
 
-template <> bool LayerBody<2>::foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out, int side) const {
-  if (faces_.empty()) {
-    return false;
+namespace {
+
+/// The point of a face nearest to another.
+struct OnFace {
+  double square = std::numeric_limits<double>::infinity(), part = 0;
+  int face = -1;
+  bool before(const OnFace& other) const { return square < other.square || (square == other.square && face < other.face); }
+};
+
+} // namespace
+
+template <> template <class On> bool LayerBody<2>::outside_of(const On& at, const std::array<double, 2>& point, std::array<double, 2>& outward) const {
+  const Face& face = faces_[static_cast<std::size_t>(at.face)];
+  const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
+  const auto along = minus(vb.x, va.x), from = minus(point, va.x);
+  const std::array<double, 2> off = {from[0] - at.part * along[0], from[1] - at.part * along[1]};
+  const bool at_a = at.part == 0 && !va.end, at_b = at.part == 1 && !vb.end;
+  outward = at_a ? va.normal : at_b ? vb.normal : face.normal;
+  const double distance = std::sqrt(at.square), scale = std::sqrt(dot(along, along));
+  const bool outside = dot(off, outward) > 0;
+  if (distance > 1e-9 * scale && (at_a || at_b)) {
+    for (std::size_t d = 0; d < 2; ++d) {
+      outward[d] = (outside ? 1 : -1) * off[d] / distance;
+    }
+  } else {
+    const double length = std::sqrt(dot(outward, outward));
+    for (std::size_t d = 0; d < 2; ++d) {
+      outward[d] = length > 0 ? outward[d] / length : face.normal[d];
+    }
   }
-  double best = 1e300;
-  const double far = reach + thickest_;
+  return outside;
+}
+
+template <> template <class On> On LayerBody<2>::on_face(int f, const std::array<double, 2>& point) const {
+  const Face& face = faces_[static_cast<std::size_t>(f)];
+  const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
+  const auto along = minus(vb.x, va.x), from = minus(point, va.x);
+  double t = dot(from, along) / dot(along, along);
+  t = va.end && t < 0 ? t : std::max(t, 0.0);
+  t = vb.end && t > 1 ? t : std::min(t, 1.0);
+  const std::array<double, 2> off = {from[0] - t * along[0], from[1] - t * along[1]};
+  return {dot(off, off), t, f};
+}
+
+/// Calls body(face) for faces of a kind in bins within `far` of a point, until it returns true.
+template <> template <class Body> bool LayerBody<2>::any_near(const std::array<double, 2>& point, double far, bool hidden, Body&& body) const {
   std::array<int, 2> a{}, b{};
   for (std::size_t d = 0; d < 2; ++d) {
     // What lies beyond an end looks at the end's own bin.
@@ -163,56 +190,51 @@ template <> bool LayerBody<2>::foot(const std::array<double, 2>& point, double r
     a[d] = std::max(a[d], 0);
     b[d] = std::min(b[d], bins_[d] - 1);
   }
-  double best_part = 0;
-  int found = -1;
+  const Bins& bins = binned_[hidden ? 1 : 0];
   for (int y = a[1]; y <= b[1]; ++y) {
     for (int x = a[0]; x <= b[0]; ++x) {
       const auto at = static_cast<std::size_t>(y * bins_[0] + x);
-      for (int q = first_[at]; q < first_[at + 1]; ++q) {
-        const int f = binned_[static_cast<std::size_t>(q)];
-        const Face& face = faces_[static_cast<std::size_t>(f)];
-        if (side >= 0 && face.side == 1 - side) {
-          continue;
-        }
-        const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
-        const auto along = minus(vb.x, va.x), from = minus(point, va.x);
-        double t = dot(from, along) / dot(along, along);
-        t = va.end && t < 0 ? t : std::max(t, 0.0);
-        t = vb.end && t > 1 ? t : std::min(t, 1.0);
-        const std::array<double, 2> off = {from[0] - t * along[0], from[1] - t * along[1]};
-        const double square = dot(off, off);
-        if (square < best || (square == best && f < found)) {
-          best = square;
-          best_part = t;
-          found = f;
+      for (int q = bins.first[at]; q < bins.first[at + 1]; ++q) {
+        if (body(bins.face[static_cast<std::size_t>(q)])) {
+          return true;
         }
       }
     }
   }
-  if (found < 0 || best > far * far) {
+  return false;
+}
+
+template <> bool LayerBody<2>::foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out, int side) const {
+  if (faces_.empty()) {
     return false;
   }
-  const Face& face = faces_[static_cast<std::size_t>(found)];
-  const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
-  const auto along = minus(vb.x, va.x), from = minus(point, va.x);
-  const std::array<double, 2> off = {from[0] - best_part * along[0], from[1] - best_part * along[1]};
-  const bool at_a = best_part == 0 && !va.end, at_b = best_part == 1 && !vb.end;
-  const std::array<double, 2>& outward = at_a ? va.normal : at_b ? vb.normal : face.normal;
-  const double distance = std::sqrt(best), scale = std::sqrt(dot(along, along));
-  const bool outside = dot(off, outward) > 0;
-  if (distance > 1e-9 * scale && (at_a || at_b)) {
-    for (std::size_t d = 0; d < 2; ++d) {
-      out.normal[d] = (outside ? 1 : -1) * off[d] / distance;
+  const double far = reach + thickest_;
+  OnFace surface;
+  any_near(point, far, false, [&](int f) {
+    if (side < 0 || faces_[static_cast<std::size_t>(f)].side != 1 - side) {
+      const auto on = on_face<OnFace>(f, point);
+      surface = on.before(surface) ? on : surface;
     }
-  } else {
-    const double length = std::sqrt(dot(outward, outward));
+    return false;
+  });
+  if (surface.face < 0 || surface.square > far * far) {
+    return false;
+  }
+  const bool in_front = outside_of(surface, point, out.normal);
+  // Nearer to what is hidden: in a layer, or in a slit that is closed. Of a given side what counts is how the point stands to that.
+  const bool inside = !in_front || (side < 0 && any_near(point, std::sqrt(surface.square), true, [&](int f) { return on_face<OnFace>(f, point).square < surface.square; }));
+  const Face& face = faces_[static_cast<std::size_t>(surface.face)];
+  const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
+  const double distance = std::sqrt(surface.square), part = surface.part;
+  if (inside == in_front) { // the way to it leads through a slit or another layer
     for (std::size_t d = 0; d < 2; ++d) {
-      out.normal[d] = length > 0 ? outward[d] / length : face.normal[d];
+      const double off = point[d] - va.x[d] - part * (vb.x[d] - va.x[d]);
+      out.normal[d] = distance > 0 ? (inside ? -1 : 1) * off / distance : out.normal[d];
     }
   }
   out.node = {va.node[0], va.node[1], vb.node[0], vb.node[1]};
-  out.weight = {(1 - best_part) * va.weight[0], (1 - best_part) * va.weight[1], best_part * vb.weight[0], best_part * vb.weight[1]};
-  out.level = (outside ? distance : -distance) - ((1 - best_part) * va.offset + best_part * vb.offset);
+  out.weight = {(1 - part) * va.weight[0], (1 - part) * va.weight[1], part * vb.weight[0], part * vb.weight[1]};
+  out.level = (inside ? -distance : distance) - ((1 - part) * va.offset + part * vb.offset);
   out.side = face.side;
   return std::abs(out.level) <= reach;
 }
@@ -223,8 +245,10 @@ template <> bool LayerBody<2>::near(const std::array<double, 2>& p, double reach
 }
 
 template <> bool LayerBody<2>::inside(const std::array<double, 2>& p) const {
-  bool in = false; // a ray along the last axis, down: closed at ends that go on, since faces reach on there
-  for (const Face& face : faces_) {
+  std::vector<char> in(static_cast<std::size_t>(layers_), 0); // a ray along the last axis, down: closed at ends that go on, since faces reach on there
+  OnFace surface, hidden;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Face& face = faces_[f];
     const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
     double x = p[0];
     const bool forward = va.x[0] < vb.x[0];
@@ -233,10 +257,14 @@ template <> bool LayerBody<2>::inside(const std::array<double, 2>& p) const {
     x = right.end && x >= right.x[0] ? std::nextafter(right.x[0], left.x[0]) : x;
     if ((va.x[0] <= x) != (vb.x[0] <= x)) {
       const double y = va.x[1] + (x - va.x[0]) / (vb.x[0] - va.x[0]) * (vb.x[1] - va.x[1]);
-      in = in != (y < p[1]);
+      char& layer = in[static_cast<std::size_t>(face.layer)];
+      layer = y < p[1] ? 1 - layer : layer;
     }
+    const auto on = on_face<OnFace>(static_cast<int>(f), p);
+    OnFace& kind = face.hidden ? hidden : surface;
+    kind = on.before(kind) ? on : kind;
   }
-  return in;
+  return hidden.square < surface.square || std::find(in.begin(), in.end(), 1) != in.end();
 }
 
 template LayerBody<2>::LayerBody(const LayerStack<2>&, const std::vector<char>&, const std::vector<double>&, double);

@@ -1,9 +1,9 @@
-// LayerBody: a stack of layers as what lies in a mesh's way, its outer faces and the signed distance to them.
+// LayerBody: a stack of layers as what lies in a mesh's way, its surface and the signed distance to it.
 //
-// The faces are those of the first and the last element that is left of every column through the stack, and at rims the way from
-// one to the other; what is between plies belongs to the body. A mesh sees a body only if it is thick enough: a cell must not have
-// open corners on both sides, so a stack thinner than `least_thickness` is taken as that thick, the room added to its lower face
-// first where it has lost elements (ale/embed/layer_body.cpp). Distances are to straight faces; the foot says which nodes carry it.
+// A point is in the body if it is in a layer, or in a slit between two that is too narrow for a mesh (ale/embed/outline). The
+// surface is what is left of the layers' faces. A mesh sees a body only if it is thick enough: a cell must not have open corners on both
+// sides, so a stack thinner than `least_thickness` is taken as that thick, the room added to its lower face
+// first where it has lost elements. Distances are to straight faces; the foot says which nodes carry it.
 #pragma once
 
 #include "ale/layers/layer_stack.hpp"
@@ -59,7 +59,14 @@ private:
     std::array<int, Dim> vertex;
     std::array<double, Dim> normal; ///< unit
     int side;
+    int layer;
+    bool hidden; ///< under another layer: no part of the body's surface
   };
+
+  /// The point of a face nearest to `point`; is that outside of the face's layer, and which way is out?
+  template <class On> On on_face(int face, const std::array<double, Dim>& point) const;
+  template <class Body> bool any_near(const std::array<double, Dim>& point, double far, bool hidden, Body&& body) const;
+  template <class On> bool outside_of(const On& at, const std::array<double, Dim>& point, std::array<double, Dim>& outward) const;
 
   void add_faces(const LayerStack<Dim>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness);
   void fill_bins(double bin);
@@ -68,8 +75,12 @@ private:
   std::vector<Face> faces_;
   std::array<double, Dim> low_ = {}, high_ = {};
   std::array<int, Dim> bins_ = {};
+  int layers_ = 0;
   double bin_ = 0, thickest_ = 0, longest_reach_ = 0; ///< m: what the body is made thicker at most
-  std::vector<int> first_, binned_; ///< faces by bin
+  struct Bins {
+    std::vector<int> first, face;
+  };
+  std::array<Bins, 2> binned_; ///< of the surface, and of what is hidden
 };
 
 } // namespace ballast
