@@ -69,16 +69,15 @@ template <int Dim> std::vector<std::string> axes_of(const LayerStack<Dim>& s) {
   return Dim == 3 ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{s.axisymmetric ? "r" : "x"};
 }
 
-/// Fit for a column of a CSV file.
-std::string plain(const std::string& name) {
+} // namespace
+
+std::string column_name(const std::string& name) {
   std::string out = name;
   for (char& letter : out) {
     letter = letter == ',' || letter == '"' || letter == '\n' ? ' ' : letter;
   }
   return out;
 }
-
-} // namespace
 
 template <int Dim> BackFaceLine back_face_line(const LayerStack<Dim>& s, double direction, int axis) {
   const BackFace<Dim> face{s, direction};
@@ -136,7 +135,7 @@ template <int Dim> std::vector<std::string> layer_columns(const LayerStack<Dim>&
     quantities.emplace_back(q);
   }
   for (std::string& q : quantities) {
-    q = fmt::format("{}_{}", plain(s.name), q);
+    q = fmt::format("{}_{}", column_name(s.name), q);
   }
   return quantities;
 }

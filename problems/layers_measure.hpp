@@ -37,6 +37,9 @@ struct LayerMeasure {
 };
 template <int Dim> LayerMeasure measure_layers(const LayerStack<Dim>& stack, double direction);
 
+/// A stack's name as it stands in columns.
+std::string column_name(const std::string& name);
+
 /// Columns of history.csv of a stack, "vest_deflection [m]" ..., and their values.
 template <int Dim> std::vector<std::string> layer_columns(const LayerStack<Dim>& stack);
 template <int Dim> std::vector<double> layer_values(const LayerStack<Dim>& stack, const LayerLedger& ledger, double direction);

@@ -1,17 +1,44 @@
 #include "problems/run_layers.hpp"
 
+#include "ale/embedding.hpp"
 #include "problems/layers_measure.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace ballast {
 
 namespace {
 
-constexpr std::size_t numbers_of_a_stack = 5;
+constexpr std::size_t numbers_of_a_stack = 7; // and two for each material
+
+template <int Dim> bool torn_through(const LayerStack<Dim>& s) {
+  for (int j = 0; j < (Dim == 3 ? s.grid.elements[1] : 1); ++j) {
+    for (int i = 0; i < s.grid.elements[0]; ++i) {
+      bool any = false;
+      for (int level = 0; level < s.grid.levels() && !any; ++level) {
+        any = s.alive[s.element(i, j, level)] != 0;
+      }
+      if (!any) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
 
 } // namespace
+
+/// kg now above and below that were not there at the start.
+template <int Dim> std::array<double, 2> LayersRecord<Dim>::passed(const Seen& seen, const std::vector<std::array<double, 2>>& now) {
+  std::array<double, 2> sum = {0, 0};
+  for (std::size_t m = 0; m < now.size() && m < seen.sides_start.size(); ++m) {
+    sum[0] += std::max(0.0, now[m][1] - seen.sides_start[m][1]);
+    sum[1] += std::max(0.0, now[m][0] - seen.sides_start[m][0]);
+  }
+  return sum;
+}
 
 template <int Dim> LayerSums sum_layers(const std::vector<Layers<Dim>>& layers) {
   LayerSums sums;
@@ -38,6 +65,10 @@ template <int Dim> std::vector<std::string> LayersRecord<Dim>::columns(const Sce
   for (const Layers<Dim>& l : scene.layers) {
     const std::vector<std::string> some = layer_columns(l.stack);
     all.insert(all.end(), some.begin(), some.end());
+    if (!scene.embedded.empty()) {
+      all.push_back(fmt::format("{}_passed_up [kg]", column_name(l.stack.name)));
+      all.push_back(fmt::format("{}_passed_down [kg]", column_name(l.stack.name)));
+    }
   }
   return all;
 }
@@ -51,6 +82,13 @@ template <int Dim> std::vector<double> LayersRecord<Dim>::add(const Scene<Dim>& 
     const LayerMeasure m = measure_layers(l.stack, spec_.layers[q].direction);
     seen_[q].largest = std::max(seen_[q].largest, m.largest);
     seen_[q].largest_internal = std::max(seen_[q].largest_internal, m.totals.internal);
+    if (!scene.embedded.empty()) {
+      const std::vector<std::array<double, 2>> sides = masses_by_side(scene, q);
+      seen_[q].sides_start = seen_[q].sides_start.empty() ? sides : seen_[q].sides_start;
+      const std::array<double, 2> mass = passed(seen_[q], sides);
+      all.insert(all.end(), mass.begin(), mass.end());
+      seen_[q].leak_while_whole = torn_through(l.stack) ? seen_[q].leak_while_whole : std::max(seen_[q].leak_while_whole, mass[0] + mass[1]);
+    }
   }
   return all;
 }
@@ -61,7 +99,8 @@ template <int Dim> void LayersRecord<Dim>::step(const Scene<Dim>& scene) {
     const double dt = stable_step(l.stack, l.cfl).dt;
     Seen& seen = seen_[q];
     if (seen.first_step == 0) {
-      seen = {0, dt, dt, totals(l.stack).mass, 0};
+      seen.first_step = seen.least_step = dt;
+      seen.mass_start = totals(l.stack).mass;
     }
     seen.least_step = std::min(seen.least_step, dt);
   }
@@ -103,6 +142,10 @@ template <int Dim> nlohmann::ordered_json LayersRecord<Dim>::results(const Scene
                      {"step_change", ledger.step_change},
                      {"from_the_mesh_around", ledger.load_work},
                      {"eroded", ledger.eroded_energy}};
+    if (!scene.embedded.empty()) {
+      const std::array<double, 2> mass = passed(seen, masses_by_side(scene, q));
+      j["passed_kg"] = {{"up", mass[0]}, {"down", mass[1]}, {"largest_while_whole", seen.leak_while_whole}};
+    }
     j["penetration_deepest_m"] = ledger.deepest;
     j["approach_in_a_step_largest_by_thickness"] = l.closing;
     j["eroded_elements"] = ledger.eroded_elements;
@@ -120,7 +163,10 @@ template <int Dim> nlohmann::ordered_json LayersRecord<Dim>::results(const Scene
 template <int Dim> std::vector<double> LayersRecord<Dim>::memory() const {
   std::vector<double> numbers;
   for (const Seen& s : seen_) {
-    numbers.insert(numbers.end(), {s.largest, s.first_step, s.least_step, s.mass_start, s.largest_internal});
+    numbers.insert(numbers.end(), {s.largest, s.first_step, s.least_step, s.mass_start, s.largest_internal, s.leak_while_whole, static_cast<double>(s.sides_start.size())});
+    for (const std::array<double, 2>& m : s.sides_start) {
+      numbers.insert(numbers.end(), m.begin(), m.end());
+    }
   }
   return numbers;
 }
@@ -128,8 +174,12 @@ template <int Dim> std::vector<double> LayersRecord<Dim>::memory() const {
 template <int Dim> std::size_t LayersRecord<Dim>::recall(std::span<const double> numbers) {
   std::size_t at = 0;
   for (Seen& s : seen_) {
-    s = {numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3], numbers[at + 4]};
+    s = {numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3], numbers[at + 4], numbers[at + 5], {}};
+    const auto materials = static_cast<std::size_t>(numbers[at + 6]);
     at += numbers_of_a_stack;
+    for (std::size_t m = 0; m < materials; ++m, at += 2) {
+      s.sides_start.push_back({numbers[at], numbers[at + 1]});
+    }
   }
   return at;
 }

@@ -30,10 +30,10 @@ struct ChannelState {
 
 /// Cells of `cell` m from 0 to `length` along the last axis, `across` of them wide between walls; `state` gives what is at a cell's
 /// middle; outside it void. The cells that `plate_from`..`plate_to` covers are void at the start.
-inline Block<2> channel(double length, double cell, int across, const std::function<ChannelState(double)>& state) {
+inline Block<2> channel(double length, double cell, int across, const std::function<ChannelState(double)>& state, const Material& material = channel_water()) {
   Block<2> b;
   b.motion = {MotionPolicy::eulerian, 1};
-  b.materials.push_back(make_slot(channel_water(), 0));
+  b.materials.push_back(make_slot(material, 0));
   b.materials.push_back(make_void());
   const int n = static_cast<int>(std::lround(length / cell));
   allocate_block(b, std::array<std::vector<double>, 3>{even_lines(0, across * cell, across), even_lines(0, length, n), {}});
