@@ -144,6 +144,9 @@ private:
   /// What has no room left goes to its root; where there is none, it stays as a pocket until there is.
   void bury();
 
+  /// For what has no room and no root: the nearest cell that has room and more of the same.
+  std::size_t way_out(std::size_t c) const;
+
   /// Room of a cell when the pass is done, before the sweeps if they go on with it.
   double room(std::size_t c) const { return special_[dense(cells_[c])] != 0 ? to_volume_[c] : from_volume_[c] + swept_[c]; }
 

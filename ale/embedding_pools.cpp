@@ -6,7 +6,6 @@ namespace ballast {
 namespace {
 
 constexpr double nothing = 1e-12;    ///< of a cell at reference density: a material's trace that is dropped, with an entry
-constexpr double wisp = 1e-6;        ///< likewise: what goes on to a neighbour that has more of it
 constexpr double alone = 5e-11;      ///< likewise: a trace in a void, with no such neighbour, that is dropped
 constexpr double merged_below = 0.25; ///< of a whole cell: smaller slivers hold the same mixture as their root, void and all
 constexpr double largest_stretch = 0.98; ///< of a cell's room: less than that is a void
@@ -95,11 +94,11 @@ template <int Dim> void EmbeddedRemap<Dim>::keep_pools() {
 
 template <int Dim> void EmbeddedRemap<Dim>::bury() {
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const auto root = static_cast<std::size_t>(next_root_[c]);
     if (special_[dense(cells_[c])] == 0 || to_volume_[c] > 0) {
       continue;
     }
     const double mass = mass_of(c);
+    const std::size_t root = next_root_[c] != static_cast<int>(c) || !(mass > 0) ? static_cast<std::size_t>(next_root_[c]) : way_out(c);
     if (root == c) {
       to_volume_[c] = mass > 0 ? from_volume_[c] : 0.0;
       continue;
@@ -114,51 +113,6 @@ template <int Dim> void EmbeddedRemap<Dim>::bury() {
       touched_[root] = touched_[c] = 1;
     }
     next_root_[c] = static_cast<int>(c);
-  }
-}
-
-template <int Dim> void EmbeddedRemap<Dim>::hand_on_wisps() {
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    for (int m = 0; m < materials(); ++m) {
-      const double mass = is_void(m) ? 0.0 : at(c, m, 1);
-      if (!(mass > 0) || !(room(c) > 0) || mass >= wisp * b_.materials[static_cast<std::size_t>(m)].material.density * room(c)) {
-        continue;
-      }
-      double most = 10 * mass;
-      auto to = c;
-      for (std::size_t axis = 0; axis < Dim; ++axis) {
-        for (const int side : {-1, 1}) {
-          std::array<int, 3> n = cells_[c];
-          n[axis] += side;
-          if (!inside(n) || place_[dense(n)] < 0 || !(aperture(target_, axis, side < 0 ? cells_[c] : n) > 0)) {
-            continue;
-          }
-          const auto q = static_cast<std::size_t>(place_[dense(n)]);
-          if (at(q, m, 1) > most && room(q) > 0) {
-            most = at(q, m, 1);
-            to = q;
-          }
-        }
-      }
-      if (to == c) { // alone in a void: a drop at rest, else it would boil away without end
-        const double drop = mass / b_.materials[static_cast<std::size_t>(m)].material.density;
-        if (at(c, materials() - 1, 0) > 0.9 * room(c) && std::abs(at(c, m, 0) - drop) > 0.1 * drop) {
-          at(c, materials() - 1, 0) += at(c, m, 0) - drop;
-          scene_.ledger.sliver_energy += at(c, m, field::energy);
-          at(c, m, 0) = drop;
-          at(c, m, field::energy) = 0;
-        }
-        continue;
-      }
-      at(c, materials() - 1, 0) += at(c, m, 0);
-      at(to, materials() - 1, 0) = std::max(0.0, at(to, materials() - 1, 0) - at(c, m, 0));
-      for (int f = 0; f < fields(m); ++f) {
-        at(to, m, f) += at(c, m, f);
-        at(c, m, f) = 0;
-      }
-      transfer(c, to, mass, group_of(m));
-      touched_[c] = touched_[to] = 1;
-    }
   }
 }
 
@@ -362,8 +316,6 @@ template void EmbeddedRemap<2>::settle();
 template void EmbeddedRemap<3>::settle();
 template void EmbeddedRemap<2>::keep_pools();
 template void EmbeddedRemap<3>::keep_pools();
-template void EmbeddedRemap<2>::hand_on_wisps();
-template void EmbeddedRemap<3>::hand_on_wisps();
 template void EmbeddedRemap<2>::bury();
 template void EmbeddedRemap<3>::bury();
 template bool EmbeddedRemap<2>::at_rest(const std::vector<std::size_t>& members) const;

@@ -1,0 +1,92 @@
+// Traces beside bodies: what is next to nothing in its cell, and what a body has buried.
+#include "ale/embedding_pass.hpp"
+
+namespace ballast {
+
+namespace {
+
+constexpr double wisp = 1e-6;        ///< of a cell at reference density: what goes on to a neighbour that has more of it
+
+} // namespace
+
+template <int Dim> std::size_t EmbeddedRemap<Dim>::way_out(std::size_t c) const {
+  constexpr int farthest = 2; // cells
+  int main = 0; // what there is most of
+  for (int m = 1; m < materials(); ++m) {
+    main = !is_void(m) && at(c, m, 1) > at(c, main, 1) ? m : main;
+  }
+  std::size_t best = c;
+  int least = std::numeric_limits<int>::max();
+  double most = 0;
+  for (int k = Dim == 3 ? -farthest : 0; k <= (Dim == 3 ? farthest : 0); ++k) {
+    for (int j = -farthest; j <= farthest; ++j) {
+      for (int i = -farthest; i <= farthest; ++i) {
+        const std::array<int, 3> n = {cells_[c][0] + i, cells_[c][1] + j, cells_[c][2] + k};
+        if (!inside(n) || place_[dense(n)] < 0) {
+          continue;
+        }
+        const auto q = static_cast<std::size_t>(place_[dense(n)]);
+        const double mass = at(q, main, 1);
+        const int square = i * i + j * j + k * k;
+        if (room(q) > 0 && mass > at(c, main, 1) && (square < least || (square == least && mass > most))) {
+          best = static_cast<std::size_t>(next_root_[q]);
+          least = square;
+          most = mass;
+        }
+      }
+    }
+  }
+  return best;
+}
+
+template <int Dim> void EmbeddedRemap<Dim>::hand_on_wisps() {
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    for (int m = 0; m < materials(); ++m) {
+      const double mass = is_void(m) ? 0.0 : at(c, m, 1);
+      if (!(mass > 0) || !(room(c) > 0) || mass >= wisp * b_.materials[static_cast<std::size_t>(m)].material.density * room(c)) {
+        continue;
+      }
+      double most = 10 * mass;
+      auto to = c;
+      for (std::size_t axis = 0; axis < Dim; ++axis) {
+        for (const int side : {-1, 1}) {
+          std::array<int, 3> n = cells_[c];
+          n[axis] += side;
+          if (!inside(n) || place_[dense(n)] < 0 || !(aperture(target_, axis, side < 0 ? cells_[c] : n) > 0)) {
+            continue;
+          }
+          const auto q = static_cast<std::size_t>(place_[dense(n)]);
+          if (at(q, m, 1) > most && room(q) > 0) {
+            most = at(q, m, 1);
+            to = q;
+          }
+        }
+      }
+      if (to == c) { // alone in a void: a drop at rest, else it would boil away without end
+        const double drop = mass / b_.materials[static_cast<std::size_t>(m)].material.density;
+        if (at(c, materials() - 1, 0) > 0.9 * room(c) && std::abs(at(c, m, 0) - drop) > 0.1 * drop) {
+          at(c, materials() - 1, 0) += at(c, m, 0) - drop;
+          scene_.ledger.sliver_energy += at(c, m, field::energy);
+          at(c, m, 0) = drop;
+          at(c, m, field::energy) = 0;
+        }
+        continue;
+      }
+      at(c, materials() - 1, 0) += at(c, m, 0);
+      at(to, materials() - 1, 0) = std::max(0.0, at(to, materials() - 1, 0) - at(c, m, 0));
+      for (int f = 0; f < fields(m); ++f) {
+        at(to, m, f) += at(c, m, f);
+        at(c, m, f) = 0;
+      }
+      transfer(c, to, mass, group_of(m));
+      touched_[c] = touched_[to] = 1;
+    }
+  }
+}
+
+template std::size_t EmbeddedRemap<2>::way_out(std::size_t c) const;
+template std::size_t EmbeddedRemap<3>::way_out(std::size_t c) const;
+template void EmbeddedRemap<2>::hand_on_wisps();
+template void EmbeddedRemap<3>::hand_on_wisps();
+
+} // namespace ballast
