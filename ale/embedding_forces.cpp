@@ -121,10 +121,10 @@ template <int Dim> static CutForce<Dim> cut_force(const Scene<Dim>& scene, const
   CutForce<Dim> out;
   out.half = open_part(half, b.axisymmetric);
   const double volume = b.volume.row(c.row)[i];
-  const Pool pool = pool_of(scene, e, b, c, 0.5 * dt, out.half.volume, volume);
+  const Pool pool = pool_of(scene, e, b, c, 0.5 * dt, out.half.volume - c.open, volume);
   out.compression = pool.change / pool.volume;
-  if (out.half.volume > most_growth * volume) { // a sliver that opens by itself: it has no one's pressure but its own
-    out.compression = std::max(out.compression, (out.half.volume - volume) / volume);
+  if (out.half.volume > most_growth * c.open) { // a sliver that opens by itself: it has no one's pressure but its own
+    out.compression = std::max(out.compression, (out.half.volume - c.open) / c.open);
   }
   // A body does not pull; beside void nothing presses, whatever balances the deviator along the void's surface.
   const bool hollow = !(b.modulus.row(c.row)[i] > 0) || is_wisp(b, c);

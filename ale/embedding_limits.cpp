@@ -91,7 +91,7 @@ template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtL
     // A sliver closes with its root: over a thousandth of a cell's crossing time.
     const double moment = 1e-3 * c.width / sound;
     const Pool pool = c.root < 0 ? Pool{part.volume, opening_rate<Dim>(scene, e, c, part, u)}
-                                 : pool_of(scene, e, b, c, moment, open_volume(half_way<Dim>(scene, e, b, c, moment, u), b.axisymmetric), part.volume);
+                                 : pool_of(scene, e, b, c, moment, open_volume(half_way<Dim>(scene, e, b, c, moment, u), b.axisymmetric) - part.volume, part.volume);
     const double rate = pool.change / pool.volume / (c.root < 0 ? 1 : moment);
     double active = 0;
     if (rate < 0) {

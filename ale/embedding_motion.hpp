@@ -82,12 +82,12 @@ template <int Dim> bool is_wisp(const Block<Dim>& b, const CutCell<Dim>& c) {
   return c.root < 0 && b.volume.row(c.row)[c.cell[0]] < small * c.whole;
 }
 
-/// A cell's room and how much it changes, with its root's if it is a sliver.
+/// A cell's room and how much its open part changes, with its root's if it is a sliver.
 struct Pool {
   double volume, change;
 };
-template <int Dim> Pool pool_of(const Scene<Dim>& scene, const Embedding<Dim>& e, const Block<Dim>& b, const CutCell<Dim>& c, double half, double then, double volume) {
-  Pool pool{volume, then - volume};
+template <int Dim> Pool pool_of(const Scene<Dim>& scene, const Embedding<Dim>& e, const Block<Dim>& b, const CutCell<Dim>& c, double half, double change, double volume) {
+  Pool pool{volume, change};
   if (c.root >= 0) {
     const int r = b.grid.cell_row(c.root_cell[1], c.root_cell[2]), kind = e.kind_of(b.grid, r, c.root_cell[0]);
     CutCell<Dim> root;
