@@ -13,19 +13,20 @@ namespace {
 
 constexpr std::size_t numbers_of_a_stack = 7; // and two for each material
 
+/// Has every layer lost an element?
 template <int Dim> bool torn_through(const LayerStack<Dim>& s) {
-  for (int j = 0; j < (Dim == 3 ? s.grid.elements[1] : 1); ++j) {
-    for (int i = 0; i < s.grid.elements[0]; ++i) {
-      bool any = false;
-      for (int level = 0; level < s.grid.levels() && !any; ++level) {
-        any = s.alive[s.element(i, j, level)] != 0;
-      }
-      if (!any) {
-        return true;
+  for (int level = 0; level < s.grid.levels(); ++level) {
+    bool whole = true;
+    for (int j = 0; j < (Dim == 3 ? s.grid.elements[1] : 1); ++j) {
+      for (int i = 0; i < s.grid.elements[0]; ++i) {
+        whole = whole && s.alive[s.element(i, j, level)] != 0;
       }
     }
+    if (whole) {
+      return false;
+    }
   }
-  return false;
+  return true;
 }
 
 } // namespace

@@ -48,7 +48,7 @@ private:
     double first_step = 0, least_step = 0; ///< stable steps of the stack, s
     double mass_start = 0;                ///< kg
     double largest_internal = 0;          ///< J: at any sample
-    // Of a stack inside the mesh: kg by material and side at the start, largest mass that has changed sides while no column was torn through.
+    // Of a stack inside the mesh: kg by material and side at the start, largest mass that has changed sides while a layer was whole.
     double leak_while_whole = 0;
     std::vector<std::array<double, 2>> sides_start = {};
   };
