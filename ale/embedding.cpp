@@ -26,6 +26,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
   }
   const int rows = (g.cells[1] + 1) * (Dim == 3 ? g.cells[2] + 1 : 1);
   std::vector<std::vector<NodeFoot<Dim>>> found(static_cast<std::size_t>(rows)); // by row of nodes
+  std::vector<char> holds(static_cast<std::size_t>(rows), 0);
   const auto level_of = [&](int i, int j, int k, std::vector<NodeFoot<Dim>>& feet) {
     const int r = g.node_row(j, k);
     std::array<double, Dim> x{};
@@ -70,6 +71,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       }
     }
     level = inside ? -reach : reach;
+    holds[static_cast<std::size_t>(j + k * (g.cells[1] + 1))] |= inside ? 1 : 0;
   };
   parallel_ranges(pool, rows, [&](int begin, int end, int) {
     for (int row = begin; row < end; ++row) {
@@ -80,6 +82,10 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
   });
   for (int row = 0; row < rows; ++row) {
     const auto first = static_cast<int>(out.feet.size());
+    const int j = row % (g.cells[1] + 1);
+    if (holds[static_cast<std::size_t>(row)] != 0 || !found[static_cast<std::size_t>(row)].empty()) {
+      out.rows = both_rows(out.rows, {j, j + 1});
+    }
     for (NodeFoot<Dim>& f : found[static_cast<std::size_t>(row)]) {
       f.other += f.other >= 0 ? first : 0;
       out.feet.push_back(f);
@@ -141,7 +147,7 @@ void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, 
   const Grid& g = b.grid;
   kind.assign(static_cast<std::size_t>(g.cell_pitch()) * static_cast<std::size_t>(g.cell_rows()), open_cell);
   cut.clear();
-  for_cells<Dim>(g, [&](int i, int j, int k) {
+  for_cells_beside<Dim>(g, levels.rows, [&](int i, int j, int k) {
     const int corners = open_corners<Dim>(g, levels, i, j, k);
     if (corners == 1 << Dim) {
       return;

@@ -40,6 +40,7 @@ template <int Dim> struct Levels {
   RowField level;             ///< m; of nodes out of reach of any body only the sign means something
   std::vector<int> foot_of;   ///< by node: where in `feet`, or -1
   std::vector<NodeFoot<Dim>> feet;
+  Span rows;                  ///< along the second axis: nodes that are inside or near are in these rows only
 };
 
 template <int Dim> struct CutCell {
@@ -82,6 +83,7 @@ template <int Dim> struct Embedding {
   Levels<Dim> now;           ///< at the block's positions
   Levels<Dim> next;          ///< at the end of the Lagrangian step
   std::vector<int> kind;     ///< by cell
+  Span rows;                 ///< of nodes, beside which alone there are cut or covered cells (Levels::rows)
   std::vector<CutCell<Dim>> cut;
 
   std::vector<std::vector<char>> alive; ///< by stack: its elements at the start of the step, whose room the bodies take until its end

@@ -54,6 +54,22 @@ template <int Dim, class Visit> void for_cells(const Grid& g, Visit&& body) {
   }
 }
 
+/// Rows that hold all of both.
+inline Span both_rows(const Span& a, const Span& b) {
+  return a.empty() ? b : b.empty() ? a : Span{std::min(a.begin, b.begin), std::max(a.end, b.end)};
+}
+
+/// Cells beside these rows of nodes along the second axis.
+template <int Dim, class Visit> void for_cells_beside(const Grid& g, const Span& rows, Visit&& body) {
+  for (int k = 0; k < g.cells[2] && !rows.empty(); ++k) {
+    for (int j = std::max(0, rows.begin - 1); j < std::min(g.cells[1], rows.end); ++j) {
+      for (int i = 0; i < g.cells[0]; ++i) {
+        body(i, j, k);
+      }
+    }
+  }
+}
+
 /// Corners of a cell outside bodies.
 template <int Dim> int open_corners(const Grid& g, const Levels<Dim>& levels, int i, int j, int k) {
   int count = 0;

@@ -102,10 +102,10 @@ private:
     if (kind == covered_cell) {
       return 0;
     }
-    return open_volume(level_cell<Dim>(g_, path_[config.at], levels_[config.at], c), b_.axisymmetric);
+    return open_volume(level_cell<Dim>(g_, *path_[config.at], levels_[config.at], c), b_.axisymmetric);
   }
   double whole_of(const Config& config, const std::array<int, 3>& c) const {
-    LevelCell<Dim> cell = level_cell<Dim>(g_, path_[config.at], levels_[config.at], c);
+    LevelCell<Dim> cell = level_cell<Dim>(g_, *path_[config.at], levels_[config.at], c);
     cell.level.fill(1);
     return open_volume(cell, b_.axisymmetric);
   }
@@ -185,7 +185,8 @@ private:
   std::vector<int> offset_;
   int size_ = 0;
 
-  std::array<std::array<RowField, Dim>, Dim + 1> path_;
+  std::array<std::array<RowField, Dim>, Dim + 1> between_; // what of the path no field of the block holds
+  std::array<const std::array<RowField, Dim>*, Dim + 1> path_ = {};
   std::array<Levels<Dim>, Dim + 1> levels_;
   Config lag_, target_;
   std::vector<char> special_;

@@ -5,6 +5,7 @@
 // share one state with their root, the neighbour behind their widest opening: what leaves them is drawn from both, and at the end
 // density and energy of every material are the same in both. What a body buries goes to the root whole. Momentum goes corner by
 // corner with the mass, at the velocity of the corner it leaves.
+#include "ale/embedding_cells.hpp"
 #include "ale/embedding_pass.hpp"
 
 #include "ale/phases.hpp"
@@ -38,70 +39,63 @@ template <int Dim> void EmbeddedRemap<Dim>::run() {
 
 template <int Dim> void EmbeddedRemap<Dim>::find_levels_on_the_way() {
   const std::vector<LayerBody<Dim>> bodies = bodies_of(scene_, e_);
-  path_[0] = b_.position;
+  path_[0] = &b_.position;
   levels_[0] = std::move(e_.next);
   for (int q = 0; q < Dim; ++q) {
     const auto next = static_cast<std::size_t>(q + 1), d = static_cast<std::size_t>(remap::sweep_axis(Dim, q, order_));
-    path_[next] = path_[next - 1];
-    path_[next][d] = b_.target[d];
-    levels_[next] = find_levels<Dim>(g_, path_[next], bodies, &e_.now, *scene_.pool);
+    if (next < Dim) {
+      between_[next] = *path_[next - 1];
+      between_[next][d] = b_.target[d];
+    }
+    path_[next] = next < Dim ? &between_[next] : &b_.target;
+    levels_[next] = find_levels<Dim>(g_, *path_[next], bodies, &e_.now, *scene_.pool);
   }
-  find_cells<Dim>(b_, path_[0], levels_[0], lag_.kind, lag_.cut);
-  find_cells<Dim>(b_, path_[Dim], levels_[Dim], target_.kind, target_.cut);
+  find_cells<Dim>(b_, *path_[0], levels_[0], lag_.kind, lag_.cut);
+  find_cells<Dim>(b_, *path_[Dim], levels_[Dim], target_.kind, target_.cut);
   target_.at = Dim;
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::find_special() {
   special_.assign(lag_.kind.size(), 0);
   place_.assign(lag_.kind.size(), -1);
-  for (int k = 0; k < g_.cells[2]; ++k) {
-    for (int j = 0; j < g_.cells[1]; ++j) {
-      for (int i = 0; i < g_.cells[0]; ++i) {
-        const std::size_t c = dense({i, j, k});
-        special_[c] = e_.kind[c] != open_cell || lag_.kind[c] != open_cell || target_.kind[c] != open_cell ? 1 : 0;
-      }
-    }
-  }
+  const Span rows = both_rows(e_.rows, both_rows(levels_[lag_.at].rows, levels_[target_.at].rows));
+  for_cells_beside<Dim>(g_, rows, [&](int i, int j, int k) {
+    const std::size_t c = dense({i, j, k});
+    special_[c] = e_.kind[c] != open_cell || lag_.kind[c] != open_cell || target_.kind[c] != open_cell ? 1 : 0;
+  });
   const auto take = [&](const std::array<int, 3>& c) {
     if (place_[dense(c)] < 0) {
       place_[dense(c)] = static_cast<int>(cells_.size());
       cells_.push_back(c);
     }
   };
-  for (int k = 0; k < g_.cells[2]; ++k) {
-    for (int j = 0; j < g_.cells[1]; ++j) {
-      for (int i = 0; i < g_.cells[0]; ++i) {
-        const std::array<int, 3> c = {i, j, k};
-        const std::size_t at_c = dense(c);
-        if (special_[at_c] == 0 || (lag_.kind[at_c] == covered_cell && target_.kind[at_c] == covered_cell && !holds_anything(c))) {
-          continue;
-        }
-        take(c);
-        for (int axis = 0; axis < Dim; ++axis) {
-          for (const int side : {-1, 1}) {
-            std::array<int, 3> n = c;
-            n[static_cast<std::size_t>(axis)] += side;
-            if (inside(n)) {
-              take(n);
-            }
-          }
-        }
-      }
-    }
-  }
-  for (std::size_t a = 0; a < Dim; ++a) { // faces of special cells: the sweeps leave them
+  for (std::size_t a = 0; a < Dim && mesh_ != nullptr; ++a) { // faces of special cells: the sweeps leave them
     e_.closed[a].assign(special_.size(), 0);
-    for (int k = 0; k < g_.cells[2] + (a == 2 ? 1 : 0); ++k) {
-      for (int j = 0; j < g_.cells[1] + (a == 1 ? 1 : 0); ++j) {
-        for (int i = 0; i < g_.cells[0] + (a == 0 ? 1 : 0); ++i) {
-          std::array<int, 3> above = {i, j, k}, below = {i, j, k};
-          --below[a];
-          const bool low = inside(below) && special_[dense(below)] != 0, high = inside(above) && special_[dense(above)] != 0;
-          e_.closed[a][dense(above)] = low || high ? 1 : 0;
+  }
+  for_cells_beside<Dim>(g_, rows, [&](int i, int j, int k) {
+    const std::array<int, 3> c = {i, j, k};
+    const std::size_t at_c = dense(c);
+    if (special_[at_c] == 0) {
+      return;
+    }
+    const bool empty = lag_.kind[at_c] == covered_cell && target_.kind[at_c] == covered_cell && !holds_anything(c);
+    if (!empty) {
+      take(c);
+    }
+    for (std::size_t axis = 0; axis < Dim; ++axis) {
+      for (const int side : {0, 1}) {
+        std::array<int, 3> n = c;
+        n[axis] += side;
+        if (mesh_ != nullptr) {
+          e_.closed[axis][dense(n)] = 1;
+        }
+        n[axis] = c[axis] + (side == 0 ? -1 : 1);
+        if (!empty && inside(n)) {
+          take(n);
         }
       }
     }
-  }
+  });
 }
 
 template <int Dim> bool EmbeddedRemap<Dim>::holds_anything(const std::array<int, 3>& c) const {
@@ -306,8 +300,8 @@ template <int Dim> double EmbeddedRemap<Dim>::crossing(int axis, const std::arra
     for (std::size_t q = 0; q < nodes.size(); ++q) {
       const int r = g_.node_row(nodes[q][1], nodes[q][2]), i = nodes[q][0];
       for (std::size_t d = 0; d < Dim; ++d) {
-        f.before[q][d] = path_[leg][d].row(r)[i];
-        f.after[q][d] = path_[leg + 1][d].row(r)[i];
+        f.before[q][d] = (*path_[leg])[d].row(r)[i];
+        f.after[q][d] = (*path_[leg + 1])[d].row(r)[i];
       }
       f.level_before[q] = level_on<Dim>(g_, levels_[leg], nodes[q], side);
       f.level_after[q] = level_on<Dim>(g_, levels_[leg + 1], nodes[q], side);
@@ -329,6 +323,7 @@ template <int Dim> void pool_embedded(Scene<Dim>& scene, Embedding<Dim>& e, Bloc
 
 template <int Dim> void restore_open_volumes(Embedding<Dim>& e, Block<Dim>& b) {
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+  e.rows = e.now.rows;
   for (const CutCell<Dim>& c : e.cut) {
     b.volume.row(c.row)[c.cell[0]] = c.open;
   }

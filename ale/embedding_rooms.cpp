@@ -112,6 +112,7 @@ template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), nullptr, *scene.pool);
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+  e.rows = e.now.rows;
 }
 
 /// No cell may have open corners on both sides of a body: its thickness is a diagonal of the cells around it.
@@ -204,11 +205,12 @@ template <int Dim> static bool take_room(Block<Dim>& b, Embedding<Dim>& e) {
 template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
-  const std::vector<int> before = e.kind;
+  const std::vector<int> before = std::exchange(e.kind, {});
   if (keep_alive(scene, e)) { // else they are where the last step left them; signs anew: far from all faces there may be no body any more
     e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), nullptr, *scene.pool);
   }
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+  const Span were = std::exchange(e.rows, e.now.rows);
   bool changed = take_room(b, e);
   const auto free_cell = [&](int i, int j, int k) {
     const int r = g.cell_row(j, k);
@@ -221,7 +223,7 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
       changed = true;
     }
   };
-  for_cells<Dim>(g, [&](int i, int j, int k) {
+  for_cells_beside<Dim>(g, were, [&](int i, int j, int k) {
     const std::size_t at = e.cell_at(g, g.cell_row(j, k), i);
     if (e.kind[at] == open_cell && before[at] != open_cell) {
       free_cell(i, j, k);
@@ -264,7 +266,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
   const Grid& g = b.grid;
   e.next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), &e.now, *scene.pool);
   const Levels<Dim>& next = e.next;
-  for_cells<Dim>(g, [&](int i, int j, int k) {
+  for_cells_beside<Dim>(g, both_rows(e.rows, next.rows), [&](int i, int j, int k) {
     const int r = g.cell_row(j, k);
     if (open_corners<Dim>(g, next, i, j, k) == 1 << Dim && e.kind_of(g, r, i) == open_cell) {
       return;
