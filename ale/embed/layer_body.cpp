@@ -32,6 +32,7 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
   layers_ = s.grid.layers;
   for (const Outline& o : find_outlines(s, alive, least)) {
     const auto first = static_cast<int>(vertices_.size()), count = static_cast<int>(o.loop.size());
+    std::vector<int> mirrored;
     for (const OutlineVertex& v : o.loop) {
       vertices_.push_back({v.node, v.weight, v.x, v.offset, {}, false});
     }
@@ -42,7 +43,10 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
       const std::array<double, 2> along = minus(vb.x, va.x);
       const double length = std::sqrt(dot(along, along));
       if (v.side < 0) {
-        va.end = vb.end = true;
+        va.end = vb.end = v.side == -1;
+        if (v.side == -2) {
+          mirrored.insert(mirrored.end(), {a, b});
+        }
       } else if (length > 0) {
         const std::array<double, 2> normal = {along[1] / length, -along[0] / length};
         for (std::size_t d = 0; d < 2; ++d) {
@@ -51,6 +55,9 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
         }
         faces_.push_back({{a, b}, normal, v.side, o.layer, v.hidden});
       }
+    }
+    for (const int vertex : mirrored) { // with its mirror image's faces
+      vertices_[static_cast<std::size_t>(vertex)].normal[0] = 0;
     }
   }
 }
@@ -250,7 +257,7 @@ template <> bool LayerBody<2>::inside(const std::array<double, 2>& p) const {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
     const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
-    double x = p[0];
+    double x = p[0] == high_[0] ? std::nextafter(p[0], low_[0]) : p[0]; // at a mirror
     const bool forward = va.x[0] < vb.x[0];
     const Vertex &left = forward ? va : vb, &right = forward ? vb : va;
     x = left.end && x < left.x[0] ? left.x[0] : x;

@@ -209,11 +209,12 @@ private:
   std::vector<OutlineVertex> loop(int layer, int begin, int end) const {
     std::vector<OutlineVertex> out = face(layer, begin, end, true), upper = face(layer, begin, end, false);
     const int n = s_.grid.elements[0];
-    out.back().side = end == n && s_.edge[0][1] != LayerEdge::free ? -1 : 2;
+    const auto edge = [&](bool at_end, LayerEdge kind) { return !at_end || kind == LayerEdge::free ? 2 : kind == LayerEdge::symmetry ? -2 : -1; };
+    out.back().side = edge(end == n, s_.edge[0][1]);
     for (std::size_t k = upper.size(); k-- > 0;) { // a stretch belongs to the vertex it is left by, now the other way
       OutlineVertex v = upper[k];
       v.hidden = k > 0 && upper[k - 1].hidden;
-      v.side = k > 0 ? 1 : begin == 0 && s_.edge[0][0] != LayerEdge::free ? -1 : 2;
+      v.side = k > 0 ? 1 : edge(begin == 0, s_.edge[0][0]);
       out.push_back(v);
     }
     return out;

@@ -19,7 +19,7 @@ struct OutlineVertex {
   std::array<double, 2> weight;
   std::array<double, 2> x;
   double offset; ///< m, outward: what the body is made thicker
-  int side;      ///< of the stretch to the next vertex: 0 lower, 1 upper, 2 rim; -1: none, both faces go on beyond (a plane of symmetry, or what holds the edge)
+  int side;      ///< of the stretch to the next vertex: 0 lower, 1 upper, 2 rim; none if both faces go on: -1 straight (what holds the edge), -2 as in a mirror
   bool hidden;   ///< the same stretch
 };
 
