@@ -164,6 +164,9 @@ inline constexpr double most_squeeze = 0.002;
 /// Kinds and cut cells from levels.
 template <int Dim> void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut);
 
+/// What bodies must have where they are now not to slip through cells of the mesh that remaps lead to.
+template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<Dim>& e);
+
 /// Levels and cells anew, from nothing but where everything is: at the start of a run and of its continuation.
 template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e);
 

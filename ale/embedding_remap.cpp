@@ -38,6 +38,7 @@ template <int Dim> void EmbeddedRemap<Dim>::run() {
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::find_levels_on_the_way() {
+  find_least_thickness(scene_, e_); // the target may have moved
   const std::vector<LayerBody<Dim>> bodies = bodies_of(scene_, e_);
   path_[0] = &b_.position;
   levels_[0] = std::move(e_.next);

@@ -98,6 +98,77 @@ template <int Dim> static void find_roots(const Block<Dim>& b, Embedding<Dim>& e
   }
 }
 
+/// Longest edge of the cells around a place in the mesh that remaps lead to, m: of its own and two on either side.
+template <int Dim> class EdgeFinder {
+public:
+  explicit EdgeFinder(const Block<Dim>& b) {
+    const Grid& g = b.grid;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      for (int n = 0; n <= g.cells[a]; ++n) {
+        const int r = g.node_row(a == 1 ? n : 0, a == 2 ? n : 0);
+        lines_[a].push_back(b.target[a].row(r)[a == 0 ? n : 0]);
+      }
+    }
+  }
+  double at(const std::array<double, Dim>& x) const {
+    double longest = 0;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      const std::vector<double>& line = lines_[a];
+      const int cells = static_cast<int>(line.size()) - 1;
+      const int own = std::clamp(static_cast<int>(std::upper_bound(line.begin(), line.end(), x[a]) - line.begin()) - 1, 0, cells - 1);
+      for (int c = std::max(0, own - 2); c <= std::min(cells - 1, own + 2); ++c) {
+        longest = std::max(longest, line[static_cast<std::size_t>(c + 1)] - line[static_cast<std::size_t>(c)]);
+      }
+    }
+    return longest;
+  }
+
+private:
+  std::array<std::vector<double>, Dim> lines_;
+};
+
+/// No cell may have open corners on both sides of a body: its thickness is a diagonal of the cells around it, wherever it is by now.
+template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<Dim>& e) {
+  constexpr double spare = 1.05;
+  const EdgeFinder<Dim> edges(scene.blocks[static_cast<std::size_t>(e.block)]);
+  e.bin = std::numeric_limits<double>::infinity();
+  e.longest_edge = 0;
+  e.least_thickness.clear();
+  for (std::size_t q = 0; q < scene.layers.size(); ++q) {
+    const LayerStack<Dim>& s = scene.layers[q].stack;
+    const std::size_t count = s.node(0, 0, 1);
+    std::vector<double> longest(count, 0.0);
+    const auto visit = [&](std::size_t n) {
+      std::array<double, Dim> x{};
+      for (std::size_t d = 0; d < Dim; ++d) {
+        x[d] = s.position[d][n];
+      }
+      const double edge = edges.at(x);
+      longest[n % count] = std::max(longest[n % count], edge);
+      e.bin = std::min(e.bin, 2 * edge);
+      e.longest_edge = std::max(e.longest_edge, edge);
+    };
+    for (int level = 0; level < s.grid.levels(); ++level) {
+      for (int j = 0; j < (Dim == 3 ? s.grid.elements[1] : 1); ++j) {
+        for (int i = 0; i < s.grid.elements[0]; ++i) {
+          if (e.alive[q][s.element(i, j, level)] == 0) {
+            continue;
+          }
+          for (const int plane : {s.plane_below(level), s.plane_below(level) + 1}) {
+            for (int corner = 0; corner < (1 << (Dim - 1)); ++corner) {
+              visit(s.node(i + (corner & 1), j + (corner >> 1), plane));
+            }
+          }
+        }
+      }
+    }
+    for (double& l : longest) {
+      l *= spare * std::sqrt(static_cast<double>(Dim));
+    }
+    e.least_thickness.push_back(std::move(longest));
+  }
+}
+
 /// True if elements have gone since.
 template <int Dim> static bool keep_alive(const Scene<Dim>& scene, Embedding<Dim>& e) {
   const auto before = std::exchange(e.alive, {});
@@ -109,59 +180,16 @@ template <int Dim> static bool keep_alive(const Scene<Dim>& scene, Embedding<Dim
 
 template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e) {
   keep_alive(scene, e);
+  find_least_thickness(scene, e);
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), nullptr, *scene.pool);
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
   e.rows = e.now.rows;
 }
 
-/// No cell may have open corners on both sides of a body: its thickness is a diagonal of the cells around it.
-template <int Dim> static void find_least_thickness(const Scene<Dim>& scene, const Block<Dim>& b, Embedding<Dim>& e) {
-  constexpr double spare = 1.05;
-  const Grid& g = b.grid;
-  e.bin = std::numeric_limits<double>::infinity();
-  e.least_thickness.clear();
-  for (const Layers<Dim>& l : scene.layers) {
-    const LayerStack<Dim>& s = l.stack;
-    const std::size_t count = s.node(0, 0, 1);
-    std::vector<double> least(count, 0.0);
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t n = 0; n < s.node_count(); ++n) {
-      low = std::min(low, s.position[Dim - 1][n]);
-      high = std::max(high, s.position[Dim - 1][n]);
-    }
-    for_nodes<Dim>(g, [&](int i, int j, int k) {
-      const int r = g.node_row(j, k);
-      const double at = b.position[Dim - 1].row(r)[i];
-      const double edge = edges_at<Dim>(g, b.position, i, j, k)[0], slack = 2 * edge;
-      if (at < low - slack || at > high + slack) {
-        return;
-      }
-      e.bin = std::min(e.bin, 2 * edge);
-      e.longest_edge = std::max(e.longest_edge, edge);
-      for (std::size_t n = 0; n < count; ++n) {
-        double off = 0;
-        for (std::size_t d = 0; d + 1 < Dim; ++d) {
-          off = std::max(off, std::abs(b.position[d].row(r)[i] - s.position[d][n]));
-        }
-        if (off <= 1.5 * edge) {
-          least[n] = std::max(least[n], spare * std::sqrt(static_cast<double>(Dim)) * edge);
-        }
-      }
-    });
-    // Columns beyond the mesh bound faces that reach into it.
-    const double most = least.empty() ? 0.0 : *std::max_element(least.begin(), least.end());
-    std::replace(least.begin(), least.end(), 0.0, most);
-    e.least_thickness.push_back(std::move(least));
-  }
-}
-
 template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
-  if (e.least_thickness.empty()) {
-    find_least_thickness(scene, b, e);
-  }
   find_bodies(scene, e);
   for_cells<Dim>(g, [&](int i, int j, int k) {
     const int r = g.cell_row(j, k), kind = e.kind_of(g, r, i);
@@ -207,6 +235,7 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
   const Grid& g = b.grid;
   const std::vector<int> before = std::exchange(e.kind, {});
   if (keep_alive(scene, e)) { // else they are where the last step left them; signs anew: far from all faces there may be no body any more
+    find_least_thickness(scene, e);
     e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), nullptr, *scene.pool);
   }
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
@@ -264,6 +293,7 @@ template <int Dim> static double entered(const Scene<Dim>& scene, const Embeddin
 template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
+  find_least_thickness(scene, e);
   e.next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), &e.now, *scene.pool);
   const Levels<Dim>& next = e.next;
   for_cells_beside<Dim>(g, both_rows(e.rows, next.rows), [&](int i, int j, int k) {
@@ -295,6 +325,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
 }
 
 #define BALLAST_INSTANTIATE(D) \
+  template void find_least_thickness<D>(const Scene<D>&, Embedding<D>&); \
   template void find_bodies<D>(Scene<D>&, Embedding<D>&); \
   template void prepare_embedding<D>(Scene<D>&, Embedding<D>&); \
   template void update_cells<D>(Scene<D>&, Embedding<D>&); \

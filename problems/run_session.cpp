@@ -44,7 +44,7 @@ RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& 
     read_checkpoint(restart, scene_, clock_, memory_);
     const auto& o = memory_.observed;
     const std::size_t lateral_at = 5 + 4 * spec_.gauges.size();
-    if (o.size() != lateral_at + lateral_.memory().size() + layers_.memory().size()) {
+    if (o.size() < lateral_at + lateral_.memory().size() + layers_.memory().size()) { // what stacks remember may be more
       throw Error(restart + ": the state of a failed run, kept for inspection; restart from a checkpoint.h5 before it");
     }
     dt_min_ = o.at(0);
