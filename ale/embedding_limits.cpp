@@ -73,7 +73,7 @@ template <int Dim> void embedded_rates(const Embedding<Dim>& e, Block<Dim>& b) {
   }
 }
 
-/// Viscosity by the rate at which the open part closes over the cell's width; the stable step from the cell's own frequency,
+/// Viscosity by the speed at which the open part closes; the stable step from the cell's own frequency,
 /// w^2 = K/T (sum of B_p^2/M_p over what its pressure moves), twice that with its neighbours: 2 / (sqrt(2) w).
 template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtLimit& limit) {
   const Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
@@ -88,14 +88,16 @@ template <int Dim> void limit_embedded(Scene<Dim>& scene, Embedding<Dim>& e, DtL
     }
     const auto u = corner_velocities<Dim>(g, b.velocity, c.cell);
     const OpenPart<Dim> part = open_part(level_cell<Dim>(g, b.position, e.now, c.cell), b.axisymmetric);
+    const double room = std::max(part.volume, b.volume.row(c.row)[i]);
     // A sliver closes with its root: over a thousandth of a cell's crossing time.
     const double moment = 1e-3 * c.width / sound;
-    const Pool pool = c.root < 0 ? Pool{part.volume, opening_rate<Dim>(scene, e, c, part, u)}
-                                 : pool_of(scene, e, b, c, moment, open_volume(half_way<Dim>(scene, e, b, c, moment, u), b.axisymmetric) - part.volume, part.volume);
+    const Pool pool = c.root < 0 ? Pool{room, opening_rate<Dim>(scene, e, c, part, u)}
+                                 : pool_of(scene, e, b, c, moment, open_volume(half_way<Dim>(scene, e, b, c, moment, u), b.axisymmetric) - part.volume, room);
     const double rate = pool.change / pool.volume / (c.root < 0 ? 1 : moment);
     double active = 0;
     if (rate < 0) {
-      const double jump = -rate * c.width, a = quadratic * jump, lin = linear * sound * std::min(1.0, jump / (1e-7 * sound));
+      const double across = c.width * std::min(1.0, pool.volume / c.whole); // what is thin closes fast for little speed
+      const double jump = -rate * across, a = quadratic * jump, lin = linear * sound * std::min(1.0, jump / (1e-7 * sound));
       active = a + std::sqrt(a * a + lin * lin);
       c.viscosity = density * jump * active;
     }
