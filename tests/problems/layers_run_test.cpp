@@ -138,6 +138,19 @@ TEST(LayersRun, DiscOnAVestConservesMassMomentumAndEnergyInSpace) { expect_conse
 
 TEST(LayersRun, ADiscOnAMeshThatStaysDoesToo) { expect_conserved<2>(run<2>(2, embedded_deck()).summary, 1e-12); }
 
+/// M80 through the vest, where the bullet slides along tissue beside torn layers: what slides and the rest have momenta of their own, and energy
+/// is accounted for to rounding; before the layers are torn nothing has come through.
+TEST(LayersRun, ABulletThroughAVestIntoTissueKeepsItsEnergyAccount) {
+  const io::TemporaryFolder folder;
+  const ReadScene read = read_scene(std::string(BALLAST_SOURCE_DIR) + "/problems/m80_vest_tissue.toml", {"mesh.refine=0.5", "end_time=\"17 us\""});
+  ASSERT_EQ(RunSession<2>(read, folder.path() / "run", 2, "").run(), 0);
+  const nlohmann::json j = nlohmann::json::parse(text_of(folder.path() / "run" / "summary.json"));
+  EXPECT_LT(std::abs(j["energy_J"]["unaccounted"].get<double>()), 1e-8 * j["energy_J"]["start"].get<double>());
+  EXPECT_LT(j["energy_J"]["lost_where_the_mesh_meets_layers"].get<double>(), 0.05 * j["energy_J"]["start"].get<double>());
+  EXPECT_LT(std::abs(j["conservation_errors"]["mass_relative"].get<double>()), 1e-9); // traces are dropped, with an entry
+  EXPECT_GT(j["results"]["layers"]["vest"]["mass_kg"]["eroded"].get<double>(), 0);
+}
+
 TEST(LayersRun, AJacketedBulletDoesToo) {
   expect_conserved<2>(run<2>(2, bullet_deck(false)).summary);
   expect_conserved<3>(run<3>(2, bullet_deck(true)).summary);
