@@ -5,17 +5,17 @@ namespace ballast {
 
 namespace {
 
-/// Middle of what is left of a planar or axisymmetric stack over the first axis, across holes.
+/// Middle of the last layer that is left of a planar or axisymmetric stack over the first axis, across holes: scraps of others may be anywhere.
 std::vector<std::array<double, 2>> middle_of(const LayerStack<2>& s) {
   std::vector<std::array<double, 2>> line;
   for (int i = 0; i <= s.grid.elements[0]; ++i) {
-    int first = -1, last = -1;
+    int last = -1;
     for (int level = 0; level < s.grid.levels(); ++level) {
       const bool there = (i > 0 && s.alive[s.element(i - 1, 0, level)] != 0) || (i < s.grid.elements[0] && s.alive[s.element(i, 0, level)] != 0);
-      first = there && first < 0 ? level : first;
       last = there ? level : last;
     }
-    if (first >= 0) {
+    if (last >= 0) {
+      const int first = last / s.grid.through * s.grid.through;
       const std::size_t low = s.node(i, 0, s.plane_below(first)), high = s.node(i, 0, s.plane_below(last) + 1);
       line.push_back({0.5 * (s.position[0][low] + s.position[0][high]), 0.5 * (s.position[1][low] + s.position[1][high])});
     }
