@@ -214,8 +214,8 @@ template <int Dim> double surface_way(const Scene<Dim>& scene, const Embedding<D
 /// Relative rate at which a cut cell's open part closes, 1/s.
 template <int Dim> double closing_rate(const Scene<Dim>& scene, const Embedding<Dim>& e, const CutCell<Dim>& c);
 
-/// kg of each material but void below and above the last layer of a stack inside the mesh, across its holes; beside its surface, on that
-/// surface's side. Empty if nothing is left of it, or no mesh is around it.
+/// kg of each material but void below and above the last layer of a stack inside the mesh, across its holes; beside that layer's
+/// surface, on the surface's side. Empty if nothing is left of it, or no mesh is around it.
 template <int Dim> std::vector<std::array<double, 2>> masses_by_side(const Scene<Dim>& scene, std::size_t stack);
 
 /// The block's embedding in the scene, or null.

@@ -42,7 +42,9 @@ template <> std::vector<std::array<double, 2>> masses_by_side(const Scene<2>& sc
   const Embedding<2>& e = *scene.embedded.front();
   const Block<2>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
-  const std::vector<std::array<double, 2>> line = middle_of(scene.layers[stack].stack);
+  const LayerStack<2>& layers = scene.layers[stack].stack;
+  const std::vector<std::array<double, 2>> line = middle_of(layers);
+  const std::size_t last_layer = layers.node(0, 0, layers.plane_below((layers.grid.layers - 1) * layers.grid.through));
   std::vector<std::array<double, 2>> mass(b.materials.size() - (b.void_index() >= 0 ? 1 : 0), {0, 0});
   if (line.empty()) {
     return {};
@@ -58,7 +60,8 @@ template <> std::vector<std::array<double, 2>> masses_by_side(const Scene<2>& sc
       centre[1] += 0.25 * b.position[1].row(row)[n];
       if (at >= 0 && e.now.level.row(row)[n] > 0) {
         const NodeFoot<2>& f = e.now.feet[static_cast<std::size_t>(at)];
-        side = f.stack == static_cast<int>(stack) && f.foot.side < 2 ? f.foot.side : side;
+        const bool of_last = f.stack == static_cast<int>(stack) && f.foot.side < 2 && f.foot.node[0] >= last_layer;
+        side = of_last ? f.foot.side : side;
       }
     }
     const std::size_t on = side >= 0 ? static_cast<std::size_t>(side) : centre[1] > height(line, centre[0]) ? 1 : 0;
