@@ -196,7 +196,7 @@ template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e) 
     if (kind == covered_cell) {
       empty_cell(b, r, i);
     } else if (kind >= 0) {
-      const double whole = b.volume.row(r)[i], open = open_volume(level_cell<Dim>(g, b.position, e.now, {i, j, k}), b.axisymmetric);
+      const double whole = b.volume.row(r)[i], open = e.cut[static_cast<std::size_t>(kind)].open;
       std::vector<double> parts = volumes_of(b, r, i, whole);
       double& gap = parts.back(); // void gives way first
       const double taken = std::min(gap, whole - open), left = whole - gap;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace ballast {
 
@@ -29,15 +28,14 @@ template <std::size_t N> std::array<double, N> minus(const std::array<double, N>
 
 /// A layer lies to the left of its faces.
 template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least) {
-  layers_ = s.grid.layers;
   for (const Outline& o : find_outlines(s, alive, least)) {
-    const auto first = static_cast<int>(vertices_.size()), count = static_cast<int>(o.loop.size());
+    const auto first = static_cast<int>(vertices_.size()), count = static_cast<int>(o.size());
     std::vector<int> mirrored;
-    for (const OutlineVertex& v : o.loop) {
+    for (const OutlineVertex& v : o) {
       vertices_.push_back({v.node, v.weight, v.x, v.offset, {}, false});
     }
     for (int k = 0; k < count; ++k) {
-      const OutlineVertex& v = o.loop[static_cast<std::size_t>(k)];
+      const OutlineVertex& v = o[static_cast<std::size_t>(k)];
       const int a = first + k, b = first + (k + 1) % count;
       auto &va = vertices_[static_cast<std::size_t>(a)], &vb = vertices_[static_cast<std::size_t>(b)];
       const std::array<double, 2> along = minus(vb.x, va.x);
@@ -53,7 +51,7 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
           va.normal[d] += normal[d];
           vb.normal[d] += normal[d];
         }
-        faces_.push_back({{a, b}, normal, v.side, o.layer, v.hidden});
+        faces_.push_back({{a, b}, normal, v.side, v.hidden});
       }
     }
     for (const int vertex : mirrored) { // with its mirror image's faces
@@ -118,14 +116,20 @@ template <int Dim> void LayerBody<Dim>::fill_bins(double bin) {
       }
     }
   };
+  const auto for_kinds = [&](const Face& f, auto&& body) {
+    body(f.hidden ? hidden : surface);
+    if (!f.hidden && std::any_of(f.vertex.begin(), f.vertex.end(), [&](int v) { return vertices_[static_cast<std::size_t>(v)].offset > 0; })) {
+      body(padded);
+    }
+  };
   for (Bins& bins : binned_) {
     bins.first.assign(count + 1, 0);
   }
   for (const Face& f : faces_) {
-    for_bins(f, [&](std::size_t at) { ++binned_[f.hidden ? 1 : 0].first[at + 1]; });
+    for_kinds(f, [&](Kind kind) { for_bins(f, [&](std::size_t at) { ++binned_[kind].first[at + 1]; }); });
   }
-  std::array<std::vector<int>, 2> next;
-  for (std::size_t kind = 0; kind < 2; ++kind) {
+  std::array<std::vector<int>, kinds> next;
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
     Bins& bins = binned_[kind];
     for (std::size_t at = 0; at < count; ++at) {
       bins.first[at + 1] += bins.first[at];
@@ -134,23 +138,11 @@ template <int Dim> void LayerBody<Dim>::fill_bins(double bin) {
     next[kind].assign(bins.first.begin(), bins.first.end() - 1);
   }
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const std::size_t kind = faces_[f].hidden ? 1 : 0;
-    for_bins(faces_[f], [&](std::size_t at) { binned_[kind].face[static_cast<std::size_t>(next[kind][at]++)] = static_cast<int>(f); });
+    for_kinds(faces_[f], [&](Kind kind) { for_bins(faces_[f], [&](std::size_t at) { binned_[kind].face[static_cast<std::size_t>(next[kind][at]++)] = static_cast<int>(f); }); });
   }
 }
 
-namespace {
-
-/// The point of a face nearest to another.
-struct OnFace {
-  double square = std::numeric_limits<double>::infinity(), part = 0;
-  int face = -1;
-  bool before(const OnFace& other) const { return square < other.square || (square == other.square && face < other.face); }
-};
-
-} // namespace
-
-template <> template <class On> bool LayerBody<2>::outside_of(const On& at, const std::array<double, 2>& point, std::array<double, 2>& outward) const {
+template <> bool LayerBody<2>::outside_of(const OnFace& at, const std::array<double, 2>& point, std::array<double, 2>& outward) const {
   const Face& face = faces_[static_cast<std::size_t>(at.face)];
   const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
   const auto along = minus(vb.x, va.x), from = minus(point, va.x);
@@ -172,7 +164,7 @@ template <> template <class On> bool LayerBody<2>::outside_of(const On& at, cons
   return outside;
 }
 
-template <> template <class On> On LayerBody<2>::on_face(int f, const std::array<double, 2>& point) const {
+template <> LayerBody<2>::OnFace LayerBody<2>::on_face(int f, const std::array<double, 2>& point) const {
   const Face& face = faces_[static_cast<std::size_t>(f)];
   const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
   const auto along = minus(vb.x, va.x), from = minus(point, va.x);
@@ -183,8 +175,7 @@ template <> template <class On> On LayerBody<2>::on_face(int f, const std::array
   return {dot(off, off), t, f};
 }
 
-/// Calls body(face) for faces of a kind in bins within `far` of a point, until it returns true.
-template <> template <class Body> bool LayerBody<2>::any_near(const std::array<double, 2>& point, double far, bool hidden, Body&& body) const {
+template <> template <class Body> bool LayerBody<2>::any_near(const std::array<double, 2>& point, double far, Kind kind, Body&& body) const {
   std::array<int, 2> a{}, b{};
   for (std::size_t d = 0; d < 2; ++d) {
     // What lies beyond an end looks at the end's own bin.
@@ -197,7 +188,7 @@ template <> template <class Body> bool LayerBody<2>::any_near(const std::array<d
     a[d] = std::max(a[d], 0);
     b[d] = std::min(b[d], bins_[d] - 1);
   }
-  const Bins& bins = binned_[hidden ? 1 : 0];
+  const Bins& bins = binned_[kind];
   for (int y = a[1]; y <= b[1]; ++y) {
     for (int x = a[0]; x <= b[0]; ++x) {
       const auto at = static_cast<std::size_t>(y * bins_[0] + x);
@@ -215,24 +206,30 @@ template <> bool LayerBody<2>::foot(const std::array<double, 2>& point, double r
   if (faces_.empty()) {
     return false;
   }
+  const auto nearest = [&](double within) {
+    OnFace best;
+    any_near(point, within, surface, [&](int f) {
+      const bool counts = side < 0 || faces_[static_cast<std::size_t>(f)].side != 1 - side;
+      const OnFace on = counts ? on_face(f, point) : OnFace{};
+      best = on.before(best) ? on : best;
+      return false;
+    });
+    return best.square <= within * within ? best : OnFace{};
+  };
+  OnFace at = nearest(reach);
   const double far = reach + thickest_;
-  OnFace surface;
-  any_near(point, far, false, [&](int f) {
-    if (side < 0 || faces_[static_cast<std::size_t>(f)].side != 1 - side) {
-      const auto on = on_face<OnFace>(f, point);
-      surface = on.before(surface) ? on : surface;
-    }
-    return false;
-  });
-  if (surface.face < 0 || surface.square > far * far) {
+  if (at.face < 0 && any_near(point, far, padded, [](int) { return true; })) { // farther, but made thicker
+    at = nearest(far);
+  }
+  if (at.face < 0) {
     return false;
   }
-  const bool in_front = outside_of(surface, point, out.normal);
+  const bool in_front = outside_of(at, point, out.normal);
   // Nearer to what is hidden: in a layer, or in a slit that is closed. Of a given side what counts is how the point stands to that.
-  const bool inside = !in_front || (side < 0 && any_near(point, std::sqrt(surface.square), true, [&](int f) { return on_face<OnFace>(f, point).square < surface.square; }));
-  const Face& face = faces_[static_cast<std::size_t>(surface.face)];
+  const bool inside = !in_front || (side < 0 && any_near(point, std::sqrt(at.square), hidden, [&](int f) { return on_face(f, point).square < at.square; }));
+  const Face& face = faces_[static_cast<std::size_t>(at.face)];
   const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
-  const double distance = std::sqrt(surface.square), part = surface.part;
+  const double distance = std::sqrt(at.square), part = at.part;
   if (inside == in_front) { // the way to it leads through a slit or another layer
     for (std::size_t d = 0; d < 2; ++d) {
       const double off = point[d] - va.x[d] - part * (vb.x[d] - va.x[d]);
@@ -252,26 +249,13 @@ template <> bool LayerBody<2>::near(const std::array<double, 2>& p, double reach
 }
 
 template <> bool LayerBody<2>::inside(const std::array<double, 2>& p) const {
-  std::vector<char> in(static_cast<std::size_t>(layers_), 0); // a ray along the last axis, down: closed at ends that go on, since faces reach on there
-  OnFace surface, hidden;
+  OnFace at;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const Face& face = faces_[f];
-    const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
-    double x = p[0] == high_[0] ? std::nextafter(p[0], low_[0]) : p[0]; // at a mirror
-    const bool forward = va.x[0] < vb.x[0];
-    const Vertex &left = forward ? va : vb, &right = forward ? vb : va;
-    x = left.end && x < left.x[0] ? left.x[0] : x;
-    x = right.end && x >= right.x[0] ? std::nextafter(right.x[0], left.x[0]) : x;
-    if ((va.x[0] <= x) != (vb.x[0] <= x)) {
-      const double y = va.x[1] + (x - va.x[0]) / (vb.x[0] - va.x[0]) * (vb.x[1] - va.x[1]);
-      char& layer = in[static_cast<std::size_t>(face.layer)];
-      layer = y < p[1] ? 1 - layer : layer;
-    }
-    const auto on = on_face<OnFace>(static_cast<int>(f), p);
-    OnFace& kind = face.hidden ? hidden : surface;
-    kind = on.before(kind) ? on : kind;
+    const OnFace on = on_face(static_cast<int>(f), p);
+    at = on.before(at) ? on : at;
   }
-  return hidden.square < surface.square || std::find(in.begin(), in.end(), 1) != in.end();
+  std::array<double, 2> outward{};
+  return at.face >= 0 && (faces_[static_cast<std::size_t>(at.face)].hidden || !outside_of(at, p, outward));
 }
 
 template LayerBody<2>::LayerBody(const LayerStack<2>&, const std::vector<char>&, const std::vector<double>&, double);

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace ballast {
@@ -53,20 +54,28 @@ private:
     std::array<double, Dim> x;
     double offset;                 ///< m, outward: what the body is made thicker
     std::array<double, Dim> normal; ///< sum of its faces', not unit
-    bool end = false;              ///< beyond it the face goes on: a plane of symmetry, or the stack's edge
+    bool end = false;              ///< beyond it the face goes on straight: what holds the stack's edge
   };
   struct Face {
     std::array<int, Dim> vertex;
     std::array<double, Dim> normal; ///< unit
     int side;
-    int layer;
     bool hidden; ///< under another layer: no part of the body's surface
   };
 
-  /// The point of a face nearest to `point`; is that outside of the face's layer, and which way is out?
-  template <class On> On on_face(int face, const std::array<double, Dim>& point) const;
-  template <class Body> bool any_near(const std::array<double, Dim>& point, double far, bool hidden, Body&& body) const;
-  template <class On> bool outside_of(const On& at, const std::array<double, Dim>& point, std::array<double, Dim>& outward) const;
+  /// The point of a face nearest to another.
+  struct OnFace {
+    double square = std::numeric_limits<double>::infinity(), part = 0; ///< m2; of the way along the face
+    int face = -1;
+    bool before(const OnFace& other) const { return square < other.square || (square == other.square && face < other.face); }
+  };
+  OnFace on_face(int face, const std::array<double, Dim>& point) const;
+  /// Is `point` outside of the layer of the face it is nearest to, and which way is out?
+  bool outside_of(const OnFace& at, const std::array<double, Dim>& point, std::array<double, Dim>& outward) const;
+
+  enum Kind : std::size_t { surface, hidden, padded, kinds }; ///< padded: of the surface, what is made thicker
+  /// Calls body(face) for faces of a kind in bins within `far` of a point, until it returns true.
+  template <class Body> bool any_near(const std::array<double, Dim>& point, double far, Kind kind, Body&& body) const;
 
   void add_faces(const LayerStack<Dim>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness);
   void fill_bins(double bin);
@@ -75,12 +84,11 @@ private:
   std::vector<Face> faces_;
   std::array<double, Dim> low_ = {}, high_ = {};
   std::array<int, Dim> bins_ = {};
-  int layers_ = 0;
-  double bin_ = 0, thickest_ = 0, longest_reach_ = 0; ///< m: what the body is made thicker at most
+  double bin_ = 0, thickest_ = 0, longest_reach_ = 0; ///< m; thickest: what the body is made thicker at most
   struct Bins {
     std::vector<int> first, face;
   };
-  std::array<Bins, 2> binned_; ///< of the surface, and of what is hidden
+  std::array<Bins, kinds> binned_;
 };
 
 } // namespace ballast

@@ -13,7 +13,8 @@ using Point = std::array<double, 2>;
 constexpr double seen = 0.3; ///< of `least_thickness`: a slit between layers is open where it is wider
 constexpr double apart = std::numeric_limits<double>::infinity();
 
-double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
+double distance(const Point& a, const Point& b) { return length_of(a[0] - b[0], a[1] - b[1]); }
 
 /// Room (m) that a body lacks to `least`, shared between its lower and upper faces: where it has lost elements, since
 /// that room was covered before, else below.
@@ -65,7 +66,7 @@ public:
           ++end;
         }
         if (end > begin) {
-          out.push_back({layer, loop(layer, begin, end)});
+          out.push_back(loop(layer, begin, end));
         }
         begin = std::max(end, begin + 1);
       }
@@ -102,7 +103,7 @@ private:
       const double length = along[0] * along[0] + along[1] * along[1];
       const double where = length > 0 ? (off[0] * along[0] + off[1] * along[1]) / length : 0.0, t = std::clamp(where, 0.0, 1.0);
       const bool beyond = (where < -rounding && ends(layer, i)) || (where > 1 + rounding && ends(layer, i + 1));
-      return OnPlane{i, t, std::hypot(off[0] - t * along[0], off[1] - t * along[1]), beyond};
+      return OnPlane{i, t, length_of(off[0] - t * along[0], off[1] - t * along[1]), beyond};
     };
     int from = -1;
     for (int off = 0; off < n && from < 0; ++off) {
@@ -197,7 +198,9 @@ private:
       double from = 0;
       for (const double to : ends) {
         out.push_back(from > 0 ? between(layer, i, from, low) : vertex(layer, i, low));
-        const Point middle = between(layer, i, 0.5 * (from + to), low).x;
+        const Point a = place(i, plane(layer, low)), b = place(i + 1, plane(layer, low));
+        const double part = 0.5 * (from + to);
+        const Point middle = {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
         out.back().hidden = gap_to_next(layer, low, middle, i) <= seen * 0.5 * (least_[at(i)] + least_[at(i + 1)]);
         from = to;
       }
@@ -206,8 +209,8 @@ private:
     return out;
   }
 
-  std::vector<OutlineVertex> loop(int layer, int begin, int end) const {
-    std::vector<OutlineVertex> out = face(layer, begin, end, true), upper = face(layer, begin, end, false);
+  Outline loop(int layer, int begin, int end) const {
+    Outline out = face(layer, begin, end, true), upper = face(layer, begin, end, false);
     const int n = s_.grid.elements[0];
     const auto edge = [&](bool at_end, LayerEdge kind) { return !at_end || kind == LayerEdge::free ? 2 : kind == LayerEdge::symmetry ? -2 : -1; };
     out.back().side = edge(end == n, s_.edge[0][1]);

@@ -23,10 +23,8 @@ struct OutlineVertex {
   bool hidden;   ///< the same stretch
 };
 
-struct Outline {
-  int layer;
-  std::vector<OutlineVertex> loop; ///< along the lower face, up the rim, back along the upper face; closed
-};
+/// Along a layer's lower face, up the rim, back along the upper face; closed.
+using Outline = std::vector<OutlineVertex>;
 
 std::vector<Outline> find_outlines(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness);
 
