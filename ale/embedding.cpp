@@ -82,9 +82,9 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
   });
   for (int row = 0; row < rows; ++row) {
     const auto first = static_cast<int>(out.feet.size());
-    const int j = row % (g.cells[1] + 1);
+    const int across = Dim == 3 ? row / (g.cells[1] + 1) : row; // along the last axis
     if (holds[static_cast<std::size_t>(row)] != 0 || !found[static_cast<std::size_t>(row)].empty()) {
-      out.rows = both_rows(out.rows, {j, j + 1});
+      out.rows = both_rows(out.rows, {across, across + 1});
     }
     for (NodeFoot<Dim>& f : found[static_cast<std::size_t>(row)]) {
       f.other += f.other >= 0 ? first : 0;

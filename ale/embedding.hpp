@@ -40,7 +40,7 @@ template <int Dim> struct Levels {
   RowField level;             ///< m; of nodes out of reach of any body only the sign means something
   std::vector<int> foot_of;   ///< by node: where in `feet`, or -1
   std::vector<NodeFoot<Dim>> feet;
-  Span rows;                  ///< along the second axis: nodes that are inside or near are in these rows only
+  Span rows;                  ///< along the last axis: nodes that are inside or near are in these rows only
 };
 
 template <int Dim> struct CutCell {
@@ -179,7 +179,7 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e);
 /// After it: what touches, which nodes are tied; tied ones take on the surface's normal velocity, an impact that keeps momentum.
 template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e);
 
-/// Strain rates of cut cells as of whole ones, for the viscosity of their neighbours; after the block's rates.
+/// Strain rates and lengths of cut cells as of whole ones, for the viscosity of their neighbours; after the block's rates.
 template <int Dim> void embedded_rates(const Embedding<Dim>& e, Block<Dim>& b);
 
 /// Is cell i of cell row r cut and open by less than a sliver's share?

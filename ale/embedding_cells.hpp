@@ -59,10 +59,12 @@ inline Span both_rows(const Span& a, const Span& b) {
   return a.empty() ? b : b.empty() ? a : Span{std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
-/// Cells beside these rows of nodes along the second axis.
+/// Cells beside these rows of nodes along the last axis.
 template <int Dim, class Visit> void for_cells_beside(const Grid& g, const Span& rows, Visit&& body) {
-  for (int k = 0; k < g.cells[2] && !rows.empty(); ++k) {
-    for (int j = std::max(0, rows.begin - 1); j < std::min(g.cells[1], rows.end); ++j) {
+  const Span beside = rows.empty() ? Span{0, 0} : Span{std::max(0, rows.begin - 1), std::min(g.cells[Dim - 1], rows.end)};
+  const Span planes = Dim == 3 ? beside : Span{0, 1}, lines = Dim == 3 ? Span{0, g.cells[1]} : beside;
+  for (int k = planes.begin; k < planes.end; ++k) {
+    for (int j = lines.begin; j < lines.end; ++j) {
       for (int i = 0; i < g.cells[0]; ++i) {
         body(i, j, k);
       }

@@ -76,10 +76,21 @@ std::array<double, 4> half_deviator<2>(const Block<2>& b, const CutCell<2>& c, d
 }
 
 template <>
-std::array<double, 6> half_deviator<3>(const Block<3>& b, const CutCell<3>& c, double, const WholeCell<3>&, const std::array<std::array<double, 3>, 8>&) {
+std::array<double, 6> half_deviator<3>(const Block<3>& b, const CutCell<3>& c, double dt, const WholeCell<3>& w, const std::array<std::array<double, 3>, 8>& u) {
+  std::array<double, 9> g{}; // volume times du_i/dx_j
+  for (std::size_t p = 0; p < 8; ++p) {
+    for (std::size_t n = 0; n < 9; ++n) {
+      g[n] += u[p][n / 3] * w.s[p][n % 3];
+    }
+  }
   const int i = c.cell[0];
-  const double xx = b.stress[0].row(c.row)[i], yy = b.stress[1].row(c.row)[i];
-  return {xx, yy, -xx - yy, b.stress[3].row(c.row)[i], b.stress[4].row(c.row)[i], b.stress[2].row(c.row)[i]};
+  const double mean = (g[0] + g[4] + g[8]) / 3, rate = b.shear.row(c.row)[i] * dt / w.volume, flow = b.flow_stress.row(c.row)[i];
+  const double xx = b.stress[0].row(c.row)[i] + rate * (g[0] - mean), yy = b.stress[1].row(c.row)[i] + rate * (g[4] - mean);
+  const double xy = b.stress[2].row(c.row)[i] + 0.5 * rate * (g[1] + g[3]), yz = b.stress[3].row(c.row)[i] + 0.5 * rate * (g[5] + g[7]);
+  const double xz = b.stress[4].row(c.row)[i] + 0.5 * rate * (g[2] + g[6]);
+  const double squared = 3 * (xx * xx + yy * yy + xx * yy + xy * xy + yz * yz + xz * xz);
+  const double cut = squared > flow * flow ? flow / std::sqrt(squared) : 1.0;
+  return {cut * xx, cut * yy, -cut * (xx + yy), cut * yz, cut * xz, cut * xy};
 }
 
 void add_deviator(const WholeCell<2>& w, const std::array<double, 4>& s, double share, CutForce<2>& out) {

@@ -65,8 +65,11 @@ template <int Dim> void embedded_rates(const Embedding<Dim>& e, Block<Dim>& b) {
       const int r = g.cell_row(j, k);
       for (int i = 0; i < g.cells[0]; ++i) {
         const int kind = e.kind_of(g, r, i);
+        // The block's own were made with the open part for a volume: rates in 2D, lengths in 3D (ale/viscosity).
+        const double open = kind >= 0 ? b.volume.row(r)[i] / e.cut[static_cast<std::size_t>(kind)].whole : 0.0;
         for (std::size_t d = 0; d < Dim && kind != open_cell; ++d) {
-          b.strain_rate[d].row(r)[i] *= kind >= 0 ? b.volume.row(r)[i] / e.cut[static_cast<std::size_t>(kind)].whole : 0.0;
+          b.strain_rate[d].row(r)[i] *= Dim == 3 && open > 0 ? 1.0 : open;
+          b.length[d].row(r)[i] /= Dim == 3 && open > 0 ? open : 1.0;
         }
       }
     }

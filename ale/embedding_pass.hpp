@@ -116,6 +116,12 @@ private:
     return face_opening<Dim>(g_, levels_[config.at], static_cast<int>(axis), above);
   }
 
+  /// Side of the body (0, 1) that a cell is open to, or was last; -1: both, or none known.
+  int find_side(const std::array<int, 3>& c) const;
+
+  /// Opening of a face of cell c, nothing if by now it opens to the body's other side.
+  double own_aperture(const Levels<Dim>& levels, std::size_t c, std::size_t axis, const std::array<int, 3>& above) const;
+
   /// The neighbour behind the widest opening, weighed by its own room; chains of at most three.
   void find_roots(const Config& config, const std::vector<double>& volume, std::vector<int>& root);
 
@@ -144,7 +150,7 @@ private:
   /// What has no room left goes to its root; where there is none, it stays as a pocket until there is.
   void bury();
 
-  /// For what has no room and no root: the nearest cell that has room and more of the same.
+  /// For what has no room and no root: the nearest cell on its side that has room and more of the same.
   std::size_t way_out(std::size_t c) const;
 
   /// Room of a cell when the pass is done, before the sweeps if they go on with it.
@@ -195,7 +201,7 @@ private:
   std::vector<Contents> contents_, start_, pool_;
   std::vector<char> pooled_, touched_;
   std::vector<double> from_volume_, to_volume_, swept_;
-  std::vector<int> root_, next_root_;
+  std::vector<int> root_, next_root_, side_;
   std::vector<Transfer> transfer_;
 };
 

@@ -146,6 +146,7 @@ template <int Dim> void EmbeddedRemap<Dim>::gather() {
     if (covered && !holds) {
       now.x.back() = 0; // the void of a covered cell is no room
     }
+    side_.push_back(find_side(c));
     from_volume_.push_back(covered && !holds ? 0.0 : volume);
     to_volume_.push_back(special ? open_of(target_, c) : 0.0);
     swept_.push_back(0);
@@ -153,6 +154,35 @@ template <int Dim> void EmbeddedRemap<Dim>::gather() {
   }
   start_ = contents_;
   transfer_.clear();
+}
+
+template <int Dim> int EmbeddedRemap<Dim>::find_side(const std::array<int, 3>& c) const {
+  std::array<std::array<int, 3>, 1 << Dim> nodes;
+  for (int p = 0; p < (1 << Dim); ++p) {
+    const auto step = corner_step<Dim>(p);
+    nodes[static_cast<std::size_t>(p)] = {c[0] + step[0], c[1] + step[1], c[2] + step[2]};
+  }
+  for (const Levels<Dim>* levels : {&levels_[target_.at], &levels_[lag_.at], &std::as_const(e_).now}) {
+    if (open_corners<Dim>(g_, *levels, c[0], c[1], c[2]) > 0) {
+      return open_side<Dim>(g_, *levels, nodes);
+    }
+  }
+  int side = -1; // buried: the faces it is nearest to
+  for (const std::array<int, 3>& n : nodes) {
+    const int foot = levels_[target_.at].foot_of[node_at(g_, g_.node_row(n[1], n[2]), n[0])];
+    const int here = foot < 0 ? 2 : levels_[target_.at].feet[static_cast<std::size_t>(foot)].foot.side;
+    if (here > 1 || (side >= 0 && side != here)) {
+      return -1;
+    }
+    side = here;
+  }
+  return side;
+}
+
+template <int Dim> double EmbeddedRemap<Dim>::own_aperture(const Levels<Dim>& levels, std::size_t c, std::size_t axis, const std::array<int, 3>& above) const {
+  const auto nodes = face_nodes<Dim>(static_cast<int>(axis), above);
+  const int side = open_side<Dim>(g_, levels, nodes);
+  return side >= 0 && side_[c] >= 0 && side != side_[c] ? 0.0 : face_opening<Dim>(g_, levels, static_cast<int>(axis), above);
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::find_roots(const Config& config, const std::vector<double>& volume, std::vector<int>& root) {
@@ -175,7 +205,7 @@ template <int Dim> void EmbeddedRemap<Dim>::find_roots(const Config& config, con
         const auto q = static_cast<std::size_t>(place_[dense(to)]);
         const std::array<int, 3>& face = side < 0 ? cells_[c] : to;
         // A face open at either end of the motion joins: what is buried goes where it came from.
-        const double open = std::max({aperture(lag_, axis, face), aperture(target_, axis, face), face_opening<Dim>(g_, e_.now, static_cast<int>(axis), face)});
+        const double open = std::max({own_aperture(levels_[lag_.at], c, axis, face), own_aperture(levels_[target_.at], c, axis, face), own_aperture(e_.now, c, axis, face)});
         const double room = special_[dense(to)] != 0 ? volume[q] : whole_of(config, to);
         if (room > volume[c] && open * room > best) {
           best = open * room;
@@ -333,6 +363,8 @@ template <int Dim> void restore_open_volumes(Embedding<Dim>& e, Block<Dim>& b) {
   }
 }
 
+template int EmbeddedRemap<2>::find_side(const std::array<int, 3>&) const;
+template int EmbeddedRemap<3>::find_side(const std::array<int, 3>&) const;
 template void remap_embedded<2>(Scene<2>&, Embedding<2>&, Block<2>&, remap::Mesh<2>&, const remap::Settings&, long);
 template void remap_embedded<3>(Scene<3>&, Embedding<3>&, Block<3>&, remap::Mesh<3>&, const remap::Settings&, long);
 template void pool_embedded<2>(Scene<2>&, Embedding<2>&, Block<2>&);

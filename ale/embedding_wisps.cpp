@@ -26,6 +26,9 @@ template <int Dim> std::size_t EmbeddedRemap<Dim>::way_out(std::size_t c) const 
           continue;
         }
         const auto q = static_cast<std::size_t>(place_[dense(n)]);
+        if (side_[c] >= 0 && side_[q] >= 0 && side_[q] != side_[c]) {
+          continue;
+        }
         const double mass = at(q, main, 1);
         const int square = i * i + j * j + k * k;
         if (room(q) > 0 && mass > at(c, main, 1) && (square < least || (square == least && mass > most))) {

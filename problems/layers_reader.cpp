@@ -333,10 +333,6 @@ void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, SceneSpec& scene
   for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
     read_one({deck, book, scene}, list->items[i]);
   }
-  if (!scene.layers.empty() && deck.clean() && embeds_layers(scene.motion) && scene.geometry == Geometry::three_d) {
-    const DeckNode& first = list->items.front();
-    deck.fail({first.place, first.key, "in 3D only the free sides of a mesh touch layers, and this one does not go with what it holds", "motion.policy = \"lagrangian\", or \"relax\" with its boundary lagrangian; or an axisymmetric scene"});
-  }
 }
 
 } // namespace ballast

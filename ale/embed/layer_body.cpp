@@ -27,7 +27,7 @@ template <std::size_t N> std::array<double, N> minus(const std::array<double, N>
 } // namespace
 
 /// A layer lies to the left of its faces.
-template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least) {
+void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least) {
   for (const Outline& o : find_outlines(s, alive, least)) {
     const auto first = static_cast<int>(vertices_.size()), count = static_cast<int>(o.size());
     std::vector<int> mirrored;
@@ -60,17 +60,17 @@ template <> void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vect
   }
 }
 
-template <int Dim> LayerBody<Dim>::LayerBody(const LayerStack<Dim>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin) {
+LayerBody<2>::LayerBody(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin) {
   add_faces(stack, alive, least_thickness);
   if (!faces_.empty()) {
     fill_bins(bin);
   }
 }
 
-template <int Dim> void LayerBody<Dim>::fill_bins(double bin) {
+void LayerBody<2>::fill_bins(double bin) {
   low_ = high_ = vertices_.front().x;
   for (const Vertex& v : vertices_) {
-    for (std::size_t d = 0; d < Dim; ++d) {
+    for (std::size_t d = 0; d < 2; ++d) {
       low_[d] = std::min(low_[d], v.x[d]);
       high_[d] = std::max(high_[d], v.x[d]);
     }
@@ -81,16 +81,16 @@ template <int Dim> void LayerBody<Dim>::fill_bins(double bin) {
   }
   constexpr double most = 4096; // bins along an axis
   std::size_t count = 1;
-  for (std::size_t d = 0; d < Dim; ++d) {
+  for (std::size_t d = 0; d < 2; ++d) {
     bin_ = std::max(bin_, (high_[d] - low_[d]) / most);
   }
-  for (std::size_t d = 0; d < Dim; ++d) {
+  for (std::size_t d = 0; d < 2; ++d) {
     bins_[d] = static_cast<int>((high_[d] - low_[d]) / bin_) + 1;
     count *= static_cast<std::size_t>(bins_[d]);
   }
   const auto for_bins = [&](const Face& f, auto&& body) {
-    std::array<int, Dim> a{}, b{};
-    for (std::size_t d = 0; d < Dim; ++d) {
+    std::array<int, 2> a{}, b{};
+    for (std::size_t d = 0; d < 2; ++d) {
       double lo = vertices_[static_cast<std::size_t>(f.vertex[0])].x[d], hi = lo;
       for (const int v : f.vertex) {
         lo = std::min(lo, vertices_[static_cast<std::size_t>(v)].x[d]);
@@ -99,19 +99,19 @@ template <int Dim> void LayerBody<Dim>::fill_bins(double bin) {
       a[d] = static_cast<int>((lo - low_[d]) / bin_);
       b[d] = static_cast<int>((hi - low_[d]) / bin_);
     }
-    std::array<int, Dim> at = a;
+    std::array<int, 2> at = a;
     for (;;) {
       std::size_t where = 0;
-      for (std::size_t d = Dim; d-- > 0;) {
+      for (std::size_t d = 2; d-- > 0;) {
         where = where * static_cast<std::size_t>(bins_[d]) + static_cast<std::size_t>(at[d]);
       }
       body(where);
       std::size_t d = 0;
-      while (d < Dim && ++at[d] > b[d]) {
+      while (d < 2 && ++at[d] > b[d]) {
         at[d] = a[d];
         ++d;
       }
-      if (d == Dim) {
+      if (d == 2) {
         return;
       }
     }
@@ -142,7 +142,7 @@ template <int Dim> void LayerBody<Dim>::fill_bins(double bin) {
   }
 }
 
-template <> bool LayerBody<2>::outside_of(const OnFace& at, const std::array<double, 2>& point, std::array<double, 2>& outward) const {
+bool LayerBody<2>::outside_of(const OnFace& at, const std::array<double, 2>& point, std::array<double, 2>& outward) const {
   const Face& face = faces_[static_cast<std::size_t>(at.face)];
   const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
   const auto along = minus(vb.x, va.x), from = minus(point, va.x);
@@ -164,7 +164,7 @@ template <> bool LayerBody<2>::outside_of(const OnFace& at, const std::array<dou
   return outside;
 }
 
-template <> LayerBody<2>::OnFace LayerBody<2>::on_face(int f, const std::array<double, 2>& point) const {
+LayerBody<2>::OnFace LayerBody<2>::on_face(int f, const std::array<double, 2>& point) const {
   const Face& face = faces_[static_cast<std::size_t>(f)];
   const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
   const auto along = minus(vb.x, va.x), from = minus(point, va.x);
@@ -175,7 +175,7 @@ template <> LayerBody<2>::OnFace LayerBody<2>::on_face(int f, const std::array<d
   return {dot(off, off), t, f};
 }
 
-template <> template <class Body> bool LayerBody<2>::any_near(const std::array<double, 2>& point, double far, Kind kind, Body&& body) const {
+template <class Body> bool LayerBody<2>::any_near(const std::array<double, 2>& point, double far, Kind kind, Body&& body) const {
   std::array<int, 2> a{}, b{};
   for (std::size_t d = 0; d < 2; ++d) {
     // What lies beyond an end looks at the end's own bin.
@@ -202,7 +202,7 @@ template <> template <class Body> bool LayerBody<2>::any_near(const std::array<d
   return false;
 }
 
-template <> bool LayerBody<2>::foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out, int side) const {
+bool LayerBody<2>::foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out, int side) const {
   if (faces_.empty()) {
     return false;
   }
@@ -243,12 +243,12 @@ template <> bool LayerBody<2>::foot(const std::array<double, 2>& point, double r
   return std::abs(out.level) <= reach;
 }
 
-template <> bool LayerBody<2>::near(const std::array<double, 2>& p, double reach) const {
+bool LayerBody<2>::near(const std::array<double, 2>& p, double reach) const {
   const double far = reach + thickest_;
   return !faces_.empty() && p[1] > low_[1] - far && p[1] < high_[1] + far; // along the layers faces may go on
 }
 
-template <> bool LayerBody<2>::inside(const std::array<double, 2>& p) const {
+bool LayerBody<2>::inside(const std::array<double, 2>& p) const {
   OnFace at;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const OnFace on = on_face(static_cast<int>(f), p);
@@ -257,7 +257,5 @@ template <> bool LayerBody<2>::inside(const std::array<double, 2>& p) const {
   std::array<double, 2> outward{};
   return at.face >= 0 && (faces_[static_cast<std::size_t>(at.face)].hidden || !outside_of(at, p, outward));
 }
-
-template LayerBody<2>::LayerBody(const LayerStack<2>&, const std::vector<char>&, const std::vector<double>&, double);
 
 } // namespace ballast

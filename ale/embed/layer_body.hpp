@@ -1,6 +1,6 @@
 // LayerBody: a stack of layers as what lies in a mesh's way, its surface and the signed distance to it.
 //
-// A point is in the body if it is in a layer, or in a slit between two that is too narrow for a mesh (ale/embed/outline). The
+// A point is in the body if it is in a layer, or in a slit between two that is too narrow for a mesh (ale/embed/outline, in 3D ale/embed/layer_skin). The
 // surface is what is left of the layers' faces. A mesh sees a body only if it is thick enough: a cell must not have open corners on both
 // sides, so a stack thinner than `least_thickness` is taken as that thick, the room added to its lower face
 // first where it has lost elements. Distances are to straight faces; the foot says which nodes carry it.
@@ -17,7 +17,7 @@ namespace ballast {
 
 /// Where a point stands to a body.
 template <int Dim> struct BodyFoot {
-  static constexpr int most = 2 * Dim; ///< two nodes a vertex of the face
+  static constexpr int most = 4; ///< two at either end of a stretch of an outline; a quadrilateral's corners
   double level = 0;                        ///< signed distance, m: positive outside
   std::array<double, Dim> normal = {};     ///< its gradient, a unit vector
   std::array<std::size_t, most> node = {}; ///< of the stack, that carry the foot
@@ -25,21 +25,24 @@ template <int Dim> struct BodyFoot {
   int side = 0;                            ///< 0: on the lower face, 1: upper, 2: rim
 };
 
-template <int Dim> class LayerBody {
+/// The outer faces of a stack.
+template <int Dim> class LayerBody;
+
+template <> class LayerBody<2> {
 public:
   /// The outer faces of a stack as it stands. `alive`: the elements that count; `least_thickness` (m) by node of a plane; `bin` (m): about the distance at which points
   /// are asked for.
-  LayerBody(const LayerStack<Dim>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin);
+  LayerBody(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin);
 
   /// The foot of a point if it is within `reach` (m) of the body's faces. Sides alike: the lower-numbered face. `side` 0 or 1: on that
   /// side's faces or a rim's, however far inside.
-  bool foot(const std::array<double, Dim>& point, double reach, BodyFoot<Dim>& out, int side = -1) const;
+  bool foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out, int side = -1) const;
 
   /// Is a point inside, however far from the faces?
-  bool inside(const std::array<double, Dim>& point) const;
+  bool inside(const std::array<double, 2>& point) const;
 
   /// Is a point within `reach` of the box around the faces? Beyond ends that go on, too.
-  bool near(const std::array<double, Dim>& point, double reach) const;
+  bool near(const std::array<double, 2>& point, double reach) const;
 
   /// m: the farthest that feet are asked for.
   void set_longest_reach(double reach) { longest_reach_ = reach; }
@@ -51,14 +54,14 @@ private:
   struct Vertex {
     std::array<std::size_t, 2> node;
     std::array<double, 2> weight;
-    std::array<double, Dim> x;
+    std::array<double, 2> x;
     double offset;                 ///< m, outward: what the body is made thicker
-    std::array<double, Dim> normal; ///< sum of its faces', not unit
+    std::array<double, 2> normal; ///< sum of its faces', not unit
     bool end = false;              ///< beyond it the face goes on straight: what holds the stack's edge
   };
   struct Face {
-    std::array<int, Dim> vertex;
-    std::array<double, Dim> normal; ///< unit
+    std::array<int, 2> vertex;
+    std::array<double, 2> normal; ///< unit
     int side;
     bool hidden; ///< under another layer: no part of the body's surface
   };
@@ -69,21 +72,21 @@ private:
     int face = -1;
     bool before(const OnFace& other) const { return square < other.square || (square == other.square && face < other.face); }
   };
-  OnFace on_face(int face, const std::array<double, Dim>& point) const;
+  OnFace on_face(int face, const std::array<double, 2>& point) const;
   /// Is `point` outside of the layer of the face it is nearest to, and which way is out?
-  bool outside_of(const OnFace& at, const std::array<double, Dim>& point, std::array<double, Dim>& outward) const;
+  bool outside_of(const OnFace& at, const std::array<double, 2>& point, std::array<double, 2>& outward) const;
 
   enum Kind : std::size_t { surface, hidden, padded, kinds }; ///< padded: of the surface, what is made thicker
   /// Calls body(face) for faces of a kind in bins within `far` of a point, until it returns true.
-  template <class Body> bool any_near(const std::array<double, Dim>& point, double far, Kind kind, Body&& body) const;
+  template <class Body> bool any_near(const std::array<double, 2>& point, double far, Kind kind, Body&& body) const;
 
-  void add_faces(const LayerStack<Dim>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness);
+  void add_faces(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness);
   void fill_bins(double bin);
 
   std::vector<Vertex> vertices_;
   std::vector<Face> faces_;
-  std::array<double, Dim> low_ = {}, high_ = {};
-  std::array<int, Dim> bins_ = {};
+  std::array<double, 2> low_ = {}, high_ = {};
+  std::array<int, 2> bins_ = {};
   double bin_ = 0, thickest_ = 0, longest_reach_ = 0; ///< m; thickest: what the body is made thicker at most
   struct Bins {
     std::vector<int> first, face;
@@ -92,3 +95,5 @@ private:
 };
 
 } // namespace ballast
+
+#include "ale/embed/layer_body_3d.hpp"

@@ -1,5 +1,7 @@
 #include "ale/embed/outline.hpp"
 
+#include "ale/embed/padding.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,22 +12,10 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-constexpr double seen = 0.3; ///< of `least_thickness`: a slit between layers is open where it is wider
 constexpr double apart = std::numeric_limits<double>::infinity();
 
 double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 double distance(const Point& a, const Point& b) { return length_of(a[0] - b[0], a[1] - b[1]); }
-
-/// Room (m) that a body lacks to `least`, shared between its lower and upper faces: where it has lost elements, since
-/// that room was covered before, else below.
-struct Padding {
-  double below = 0, above = 0;
-};
-Padding padding(double least, double left, double lost_below, double lost_above) {
-  const double need = std::max(0.0, least - left), lost = lost_below + lost_above;
-  const double share = lost > 0 ? lost_below / lost : 1.0;
-  return {need * share, need * (1 - share)};
-}
 
 /// A point on a plane of nodes, on segment `segment` at `part` of it.
 struct OnPlane {
@@ -92,7 +82,7 @@ private:
   }
   double& gap_at(int layer, int i, bool low) { return gap_[low ? 0 : 1][at(layer * (s_.grid.elements[0] + 1) + i)]; }
   double gap_at(int layer, int i, bool low) const { return gap_[low ? 0 : 1][at(layer * (s_.grid.elements[0] + 1) + i)]; }
-  bool hidden_at(int layer, int i, bool low) const { return gap_at(layer, i, low) <= seen * least_[at(i)]; }
+  bool hidden_at(int layer, int i, bool low) const { return gap_at(layer, i, low) <= seen_slit * least_[at(i)]; }
 
   /// The point of a layer's plane nearest to x, searched from segment `start` on.
   OnPlane nearest(int layer, int plane, const Point& x, int start) const {
@@ -128,7 +118,7 @@ private:
   /// From a point on a layer's face to the nearest layer that lies over it on that side; `apart` if none does.
   double gap_to_next(int layer, bool low, const Point& x, int start) const {
     double gap = apart;
-    const double enough = seen * least_[at(std::min(start, s_.grid.elements[0]))];
+    const double enough = seen_slit * least_[at(std::min(start, s_.grid.elements[0]))];
     for (int q = low ? layer - 1 : layer + 1; q >= 0 && q < s_.grid.layers && gap > enough; q += low ? -1 : 1) {
       const OnPlane on = nearest(q, plane(q, !low), x, start);
       gap = on.segment < 0 || on.beyond ? gap : std::min(gap, on.gap);
@@ -170,12 +160,12 @@ private:
     for (int q = low ? layer - 1 : layer + 1; q >= 0 && q < s_.grid.layers; q += low ? -1 : 1) {
       for (const int k : ends_[at(q)]) {
         const OnPlane on = nearest(layer, plane(layer, low), place(k, plane(q, !low)), i);
-        if (on.segment == i && on.gap <= seen * least_[at(i)]) {
+        if (on.segment == i && on.gap <= seen_slit * least_[at(i)]) {
           parts.push_back(on.part);
         }
       }
     }
-    const double a = gap_at(layer, i, low) - seen * least_[at(i)], b = gap_at(layer, i + 1, low) - seen * least_[at(i + 1)];
+    const double a = gap_at(layer, i, low) - seen_slit * least_[at(i)], b = gap_at(layer, i + 1, low) - seen_slit * least_[at(i + 1)];
     if (a < apart && b < apart && (a > 0) != (b > 0)) {
       parts.push_back(a / (a - b));
     }
@@ -201,7 +191,7 @@ private:
         const Point a = place(i, plane(layer, low)), b = place(i + 1, plane(layer, low));
         const double part = 0.5 * (from + to);
         const Point middle = {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
-        out.back().hidden = gap_to_next(layer, low, middle, i) <= seen * 0.5 * (least_[at(i)] + least_[at(i + 1)]);
+        out.back().hidden = gap_to_next(layer, low, middle, i) <= seen_slit * 0.5 * (least_[at(i)] + least_[at(i + 1)]);
         from = to;
       }
     }

@@ -30,56 +30,65 @@ struct ChannelState {
 
 /// Cells of `cell` m from 0 to `length` along the last axis, `across` of them wide between walls; `state` gives what is at a cell's
 /// middle; outside it void. The cells that `plate_from`..`plate_to` covers are void at the start.
-inline Block<2> channel(double length, double cell, int across, const std::function<ChannelState(double)>& state, const Material& material = channel_water()) {
-  Block<2> b;
+template <int Dim = 2> Block<Dim> channel(double length, double cell, int across, const std::function<ChannelState(double)>& state, const Material& material = channel_water()) {
+  Block<Dim> b;
   b.motion = {MotionPolicy::eulerian, 1};
   b.materials.push_back(make_slot(material, 0));
   b.materials.push_back(make_void());
   const int n = static_cast<int>(std::lround(length / cell));
-  allocate_block(b, std::array<std::vector<double>, 3>{even_lines(0, across * cell, across), even_lines(0, length, n), {}});
+  std::array<std::vector<double>, 3> lines;
+  for (std::size_t d = 0; d + 1 < Dim; ++d) {
+    lines[d] = even_lines(0, across * cell, across);
+  }
+  lines[Dim - 1] = even_lines(0, length, n);
+  allocate_block(b, lines);
   for_each_cell(b, [&](int i, int j, int k) {
-    const ChannelState s = state((j + 0.5) * cell);
+    const ChannelState s = state(((Dim == 3 ? k : j) + 0.5) * cell);
     const CellPart part{s.filled ? 0 : 1, 1, s.filled ? s.density : 0, s.filled ? s.specific_energy : 0};
-    fill_cell<2>(b, i, j, k, std::span(&part, 1));
+    fill_cell<Dim>(b, i, j, k, std::span(&part, 1));
   });
-  set_velocity(b, [&](const std::array<double, 2>& x, std::array<double, 2>& u) { u = {0, state(x[1]).speed}; });
+  set_velocity(b, [&](const std::array<double, Dim>& x, std::array<double, Dim>& u) {
+    u = {};
+    u[Dim - 1] = state(x[Dim - 1]).speed;
+  });
   b.boundary.normal = {{{0, 0}, {1, 1}, {2, 2}}};
-  for (std::size_t side = 0; side < 2; ++side) {
-    b.boundary.side[0][side] = {BoundaryKind::symmetry, 0};
-    b.boundary.side[1][side] = {BoundaryKind::symmetry, 0};
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    b.boundary.side[axis] = {{{BoundaryKind::symmetry, 0}, {BoundaryKind::symmetry, 0}}};
   }
   return b;
 }
 
 /// A Hooke plate across the channel.
-inline Layers<2> plate_across(const HookeSolid& solid, double width, int across, double from, double to, int elements) {
+template <int Dim = 2> Layers<Dim> plate_across(const HookeSolid& solid, double width, int across, double from, double to, int elements) {
   LayerInput in;
   in.name = "plate";
   in.model = solid;
-  in.lines[0] = even_lines(0, width, across);
+  for (std::size_t d = 0; d + 1 < Dim; ++d) {
+    in.lines[d] = even_lines(0, width, across);
+    in.edge[d] = {LayerEdge::symmetry, LayerEdge::symmetry};
+  }
   in.levels = even_lines(from, to, elements);
   in.layers = 1;
   in.through = elements;
-  in.edge[0] = {LayerEdge::symmetry, LayerEdge::symmetry};
-  Layers<2> l;
-  l.stack = make_stack<2>(in);
+  Layers<Dim> l;
+  l.stack = make_stack<Dim>(in);
   return l;
 }
 
-inline void embed(Scene<2>& scene) {
-  scene.embedded.push_back(std::make_shared<Embedding<2>>());
+template <int Dim> void embed(Scene<Dim>& scene) {
+  scene.embedded.push_back(std::make_shared<Embedding<Dim>>());
   prepare(scene);
 }
 
 struct ChannelSums {
   double mass = 0, momentum = 0, energy = 0, kinetic = 0;
 };
-inline ChannelSums channel_sums(const Scene<2>& scene) {
+template <int Dim> ChannelSums channel_sums(const Scene<Dim>& scene) {
   const Totals b = totals(scene.blocks[0]);
-  ChannelSums out{b.mass[0], b.momentum[1] + scene.ledger.momentum_out[1], b.kinetic_energy + b.internal() + scene.ledger.embedded_given + scene.ledger.remap_kinetic_loss + scene.ledger.void_work - scene.ledger.boundary_work + scene.ledger.sliver_energy, b.kinetic_energy};
-  for (const Layers<2>& l : scene.layers) {
+  ChannelSums out{b.mass[0], b.momentum[Dim - 1] + scene.ledger.momentum_out[Dim - 1], b.kinetic_energy + b.internal() + scene.ledger.embedded_given + scene.ledger.remap_kinetic_loss + scene.ledger.void_work - scene.ledger.boundary_work + scene.ledger.sliver_energy, b.kinetic_energy};
+  for (const Layers<Dim>& l : scene.layers) {
     const LayerTotals t = totals(l.stack);
-    out.momentum += t.momentum[1] - l.ledger.edge_impulse[1];
+    out.momentum += t.momentum[Dim - 1] - l.ledger.edge_impulse[Dim - 1];
     out.energy += t.leapfrog_kinetic + t.internal + t.hourglass + t.shock_heat + l.ledger.contact_loss + l.ledger.step_change - l.ledger.load_work;
     out.kinetic += t.kinetic;
   }

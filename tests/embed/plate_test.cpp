@@ -21,30 +21,30 @@ double shared_velocity(double speed, double z) {
 }
 
 /// What flows along the channel up to a plate, 30 mm thick in 120 elements, that lies anyhow between the mesh's lines.
-Scene<2> flow_on_plate(const Material& m, double speed, const HookeSolid& solid, double cell) {
+template <int Dim = 2> Scene<Dim> flow_on_plate(const Material& m, double speed, const HookeSolid& solid, double cell) {
   const double from = 30e-3 + 0.37 * cell;
-  Scene<2> scene;
+  Scene<Dim> scene;
   const auto state = [&](double at) {
     const bool filled = at < from + cell / 2;
     return ChannelState{filled, m.density, m.specific_energy, at > 0 && filled ? speed : 0};
   };
-  scene.blocks.push_back(channel(70e-3, cell, 2, state, m));
-  scene.layers.push_back(plate_across(solid, 2 * cell, 2, from, from + 30e-3, 120));
+  scene.blocks.push_back(channel<Dim>(70e-3, cell, 2, state, m));
+  scene.layers.push_back(plate_across<Dim>(solid, 2 * cell, 2, from, from + 30e-3, 120));
   scene.numerics.energy_return = false;
   embed(scene);
   return scene;
 }
 
 /// 3 mm before the plate, and in it. Asked: 1 % at 0.25 mm, 2 % at 0.5 and 1 mm; momentum and energy to rounding.
-void expect_impedance(const Scene<2>& scene, const ChannelSums& start, double cell, double pressure, double v) {
-  const Block<2>& b = scene.blocks[0];
-  const LayerStack<2>& plate = scene.layers[0].stack;
+template <int Dim> void expect_impedance(const Scene<Dim>& scene, const ChannelSums& start, double cell, double pressure, double v) {
+  const Block<Dim>& b = scene.blocks[0];
+  const LayerStack<Dim>& plate = scene.layers[0].stack;
   const ChannelSums end = channel_sums(scene);
   const int at = static_cast<int>(27e-3 / cell);
   const double within = cell < 0.3e-3 ? 0.01 : 0.02;
-  EXPECT_NEAR(b.pressure.row(b.grid.cell_row(at, 0))[0], pressure, within * pressure) << cell;
-  EXPECT_NEAR(b.velocity[1].row(b.grid.node_row(at, 0))[0], v, within * v) << cell;
-  EXPECT_NEAR(plate.velocity[1][plate.node(0, 0, 5)], v, within * v) << cell;
+  EXPECT_NEAR(b.pressure.row(b.grid.cell_row(Dim == 3 ? 0 : at, Dim == 3 ? at : 0))[0], pressure, within * pressure) << cell;
+  EXPECT_NEAR(b.velocity[Dim - 1].row(b.grid.node_row(Dim == 3 ? 0 : at, Dim == 3 ? at : 0))[0], v, within * v) << cell;
+  EXPECT_NEAR(plate.velocity[Dim - 1][plate.node(0, 0, 5)], v, within * v) << cell;
   EXPECT_NEAR(end.mass, start.mass, 1e-12 * start.mass);
   EXPECT_NEAR(end.momentum, start.momentum, 1e-12 * start.momentum);
   EXPECT_NEAR(end.energy, start.energy, 1e-8 * start.kinetic);
@@ -73,6 +73,20 @@ TEST(EmbeddedPlate, WaterOnAPlateMatchesImpedance) {
     const double lost = scene.ledger.embedded_given - scene.layers[0].ledger.load_work;
     EXPECT_GT(lost, 0);
     EXPECT_LT(lost, 0.05 * start.kinetic);
+  }
+}
+
+/// The same in 3D.
+TEST(EmbeddedPlate, WaterOnAPlateMatchesImpedanceIn3D) {
+  const HookeSolid solid{30e9, 0.3, 2000};
+  const double z = std::sqrt(solid.density * longitudinal_modulus(solid)), speed = 100, v = shared_velocity(speed, z);
+  for (const double cell : {1e-3, 0.5e-3}) {
+    Scene<3> scene = flow_on_plate<3>(channel_water(), speed, solid, cell);
+    const ChannelSums start = channel_sums(scene);
+    Clock clock;
+    clock.end_time = 10e-6;
+    ASSERT_TRUE(run(scene, clock));
+    expect_impedance(scene, start, cell, z * v, v);
   }
 }
 

@@ -1,0 +1,67 @@
+// LayerBody<3>, included by ale/embed/layer_body.hpp: the skin's quadrilaterals as four triangles each around their middles, found by
+// columns across the layers.
+#pragma once
+
+#include "ale/embed/layer_body.hpp"
+#include "ale/embed/layer_skin.hpp"
+
+namespace ballast {
+
+/// As in a plane (layer_body.hpp). Past an edge that is held, or a plane of symmetry, faces go on straight across it.
+template <> class LayerBody<3> {
+public:
+  LayerBody(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin);
+
+  bool foot(const std::array<double, 3>& point, double reach, BodyFoot<3>& out, int side = -1) const;
+  bool inside(const std::array<double, 3>& point) const;
+  bool near(const std::array<double, 3>& point, double reach) const;
+
+  void set_longest_reach(double reach) { longest_reach_ = reach; }
+  double longest_reach() const { return longest_reach_; }
+
+  bool empty() const { return patches_.empty(); }
+
+private:
+  using Point = std::array<double, 3>;
+
+  struct Patch {
+    std::array<Point, 5> x; ///< corners, middle
+    double radius;          ///< m: of a ball around the middle that holds it
+    double offset;          ///< m: largest
+  };
+  /// The point of a patch nearest to another.
+  struct OnPatch {
+    double square = std::numeric_limits<double>::infinity(); ///< m2
+    int patch = -1, edge = 0;                                ///< triangle: from corner `edge` to the next one to the middle
+    std::array<double, 3> weight = {};                       ///< of these three
+    bool before(const OnPatch& other) const { return square < other.square || (square == other.square && patch < other.patch); }
+  };
+  OnPatch on_patch(int patch, const Point& point) const;
+  /// Where in its quadrilateral that is; weights of its nodes.
+  std::array<double, 2> place(const OnPatch& at) const;
+  /// Is `point` outside of the layer of the patch it is nearest to, and which way is out?
+  bool outside_of(const OnPatch& at, const Point& point, Point& outward) const;
+
+  enum Kind : std::size_t { surface, hidden, padded, kinds }; ///< padded: of the surface, what is made thicker
+  struct Columns {
+    std::vector<int> first, patch;
+    std::vector<double> low, high; ///< m: across the layers
+  };
+  /// Calls body(patch) for those of a kind in columns that may be nearer than the square root of `square` (m2, body may lower it), until it returns true.
+  template <class Body> bool any_near(const Point& point, const double& square, Kind kind, Body&& body) const;
+  /// The nearest patch of a kind within the square root of `square`, m2; of a given side: not of the other one's faces.
+  OnPatch nearest(const Point& point, double square, Kind kind, int side = -1) const;
+
+  void fill_columns(double bin);
+  Point held(Point point) const;
+
+  Skin skin_;
+  std::vector<Patch> patches_;
+  std::array<double, 2> hold_low_, hold_high_; ///< m: held edges
+  std::array<double, 3> low_ = {}, high_ = {};
+  std::array<int, 2> columns_ = {};
+  double bin_ = 0, thickest_ = 0, longest_reach_ = 0; ///< m
+  std::array<Columns, kinds> binned_;
+};
+
+} // namespace ballast
