@@ -41,10 +41,14 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       return;
     }
     const double edge = edges_at<Dim>(g, position, i, j, k)[0], reach = reach_in_edges * edge;
+    std::array<double, Dim> box = extents_at<Dim>(g, position, i, j, k);
+    for (double& b : box) {
+      b *= reach_in_edges;
+    }
     NodeFoot<Dim> best{{}, -1, r, i, -1, false, {}, {}};
     for (std::size_t s = 0; s < bodies.size(); ++s) {
       BodyFoot<Dim> f;
-      if (bodies[s].foot(x, reach, f) && (best.stack < 0 || f.level < best.foot.level)) {
+      if (bodies[s].may_touch(x, box) && bodies[s].foot(x, reach, f) && (best.stack < 0 || f.level < best.foot.level)) {
         best.foot = f;
         best.stack = static_cast<int>(s);
       }

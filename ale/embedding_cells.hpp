@@ -34,6 +34,30 @@ template <int Dim> std::array<double, 2> edges_at(const Grid& g, const std::arra
   return {longest, shortest};
 }
 
+/// Along each coordinate: how far a node's neighbours are, one along every axis of the grid, m.
+template <int Dim> std::array<double, Dim> extents_at(const Grid& g, const std::array<RowField, Dim>& x, int i, int j, int k) {
+  std::array<double, Dim> out{};
+  const int row = g.node_row(j, k);
+  for (int a = 0; a < Dim; ++a) {
+    std::array<double, Dim> most{};
+    for (const int side : {-1, 1}) {
+      int to[3] = {i, j, k};
+      to[a] += side;
+      if (to[a] < 0 || to[a] > g.cells[static_cast<std::size_t>(a)]) {
+        continue;
+      }
+      const int r = g.node_row(to[1], to[2]);
+      for (std::size_t d = 0; d < Dim; ++d) {
+        most[d] = std::max(most[d], std::abs(x[d].row(r)[to[0]] - x[d].row(row)[i]));
+      }
+    }
+    for (std::size_t d = 0; d < Dim; ++d) {
+      out[d] += most[d];
+    }
+  }
+  return out;
+}
+
 template <int Dim, class Visit> void for_nodes(const Grid& g, Visit&& body) {
   for (int k = 0; k <= (Dim == 3 ? g.cells[2] : 0); ++k) {
     for (int j = 0; j <= g.cells[1]; ++j) {

@@ -15,7 +15,7 @@ template <int Dim> struct BodyPushes {
     std::size_t node;
     std::array<double, Dim> force;
   };
-  std::array<Push, (1 << Dim) * BodyFoot<Dim>::most> push = {};
+  std::array<Push, 2 * (1 << Dim) * BodyFoot<Dim>::most> push; // of a corner's two feet
   std::size_t count = 0;
 
   void add(const NodeFoot<Dim>& f, const std::array<double, Dim>& direction, double along) {

@@ -141,6 +141,9 @@ private:
   /// Where a body is bent its open parts do not add up to what was swept: a cell's room stays near that, and void takes what is free.
   void keep_swept_rooms();
 
+  /// What has far more room than a body leaves it goes on to a neighbour's void.
+  void relieve();
+
   /// What was drawn from a pool is settled in one: who shared a root still does.
   void keep_pools();
 

@@ -23,6 +23,7 @@ template <int Dim> void EmbeddedRemap<Dim>::pool() {
     to_volume_[c] = lag_.kind[dense(cells_[c])] == covered_cell ? 0.0 : from_volume_[c];
   }
   hand_on_wisps();
+  relieve();
   find_roots(target_, to_volume_, next_root_);
   bury();
   equalise();

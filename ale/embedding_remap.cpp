@@ -28,6 +28,7 @@ template <int Dim> void EmbeddedRemap<Dim>::run() {
   settle();
   keep_swept_rooms();
   hand_on_wisps();
+  relieve();
   find_roots(target_, to_volume_, next_root_);
   keep_pools();
   bury();

@@ -42,6 +42,52 @@ template <int Dim> std::size_t EmbeddedRemap<Dim>::way_out(std::size_t c) const 
   return best;
 }
 
+template <int Dim> void EmbeddedRemap<Dim>::relieve() {
+  constexpr double spare = 0.05, most_of_void = 0.9; // of a whole cell; of a neighbour's void
+  const int last = materials() - 1;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (special_[dense(cells_[c])] == 0 || !(to_volume_[c] > 0)) {
+      continue;
+    }
+    const double gap = std::max(at(c, last, 0), 0.0), excess = to_volume_[c] - gap - open_of(target_, cells_[c]);
+    if (!(excess > spare * whole_of(target_, cells_[c]))) {
+      continue;
+    }
+    double widest = 0;
+    std::size_t to = c;
+    for (int n = 0; n < (Dim == 3 ? 27 : 9); ++n) {
+      const std::array<int, 3> step = {n % 3 - 1, n / 3 % 3 - 1, Dim == 3 ? n / 9 - 1 : 0}, cell = {cells_[c][0] + step[0], cells_[c][1] + step[1], cells_[c][2] + step[2]};
+      if (!inside(cell) || place_[dense(cell)] < 0) {
+        continue;
+      }
+      const auto q = static_cast<std::size_t>(place_[dense(cell)]);
+      const bool apart = side_[c] >= 0 && side_[q] >= 0 && side_[c] != side_[q];
+      const int square = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
+      const double room_there = q == c || apart || !(room(q) > 0) ? 0.0 : std::max(at(q, last, 0), 0.0) / square;
+      if (room_there > widest) {
+        widest = room_there;
+        to = q;
+      }
+    }
+    if (to == c) {
+      continue;
+    }
+    const double volume = std::min(excess, most_of_void * at(to, last, 0)), share = volume / (to_volume_[c] - gap);
+    const std::array<double, 2> before = masses_of(c);
+    for (int m = 0; m < last; ++m) {
+      for (int f = 0; f < fields(m); ++f) {
+        const double amount = share * at(c, m, f);
+        at(c, m, f) -= amount;
+        at(to, m, f) += amount;
+      }
+    }
+    at(to, last, 0) -= volume;
+    to_volume_[c] -= volume;
+    transfer_change(c, to, before);
+    touched_[c] = touched_[to] = 1;
+  }
+}
+
 template <int Dim> void EmbeddedRemap<Dim>::hand_on_wisps() {
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     for (int m = 0; m < materials(); ++m) {
@@ -89,6 +135,8 @@ template <int Dim> void EmbeddedRemap<Dim>::hand_on_wisps() {
 
 template std::size_t EmbeddedRemap<2>::way_out(std::size_t c) const;
 template std::size_t EmbeddedRemap<3>::way_out(std::size_t c) const;
+template void EmbeddedRemap<2>::relieve();
+template void EmbeddedRemap<3>::relieve();
 template void EmbeddedRemap<2>::hand_on_wisps();
 template void EmbeddedRemap<3>::hand_on_wisps();
 

@@ -1,6 +1,7 @@
 #include "ale/embed/layer_body.hpp"
 
 #include "ale/embed/outline.hpp"
+#include "ale/embed/padding.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -226,7 +227,7 @@ bool LayerBody<2>::foot(const std::array<double, 2>& point, double reach, BodyFo
   }
   const bool in_front = outside_of(at, point, out.normal);
   // Nearer to what is hidden: in a layer, or in a slit that is closed. Of a given side what counts is how the point stands to that.
-  const bool inside = !in_front || (side < 0 && any_near(point, std::sqrt(at.square), hidden, [&](int f) { return on_face(f, point).square < at.square; }));
+  const bool inside = !in_front || (side < 0 && any_near(point, std::sqrt(at.square), hidden, [&](int f) { return on_face(f, point).square < nearer * at.square; }));
   const Face& face = faces_[static_cast<std::size_t>(at.face)];
   const Vertex &va = vertices_[static_cast<std::size_t>(face.vertex[0])], &vb = vertices_[static_cast<std::size_t>(face.vertex[1])];
   const double distance = std::sqrt(at.square), part = at.part;

@@ -38,6 +38,9 @@ public:
   /// side's faces or a rim's, however far inside.
   bool foot(const std::array<double, 2>& point, double reach, BodyFoot<2>& out, int side = -1) const;
 
+  /// May a face be in the box around a point, `box` (m) to either side along each axis? For skipping points that are far.
+  bool may_touch(const std::array<double, 2>&, const std::array<double, 2>&) const { return true; }
+
   /// Is a point inside, however far from the faces?
   bool inside(const std::array<double, 2>& point) const;
 

@@ -1,5 +1,7 @@
 #include "ale/embed/layer_body_3d.hpp"
 
+#include "ale/embed/padding.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -76,9 +78,11 @@ LayerBody<3>::LayerBody(const LayerStack<3>& s, const std::vector<char>& alive, 
         out.x[4][d] += 0.25 * out.x[c][d];
       }
     }
-    for (std::size_t c = 0; c < 4; ++c) {
-      const Point off = minus(out.x[c], out.x[4]);
-      out.radius = std::max(out.radius, std::sqrt(dot(off, off)));
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto ends = std::minmax({out.x[0][d], out.x[1][d], out.x[2][d], out.x[3][d]});
+      out.low[d] = ends.first;
+      out.high[d] = ends.second;
+      out.size = std::max(out.size, out.high[d] - out.low[d]);
     }
     thickest_ = std::max(thickest_, out.offset);
     patches_.push_back(out);
@@ -91,11 +95,9 @@ LayerBody<3>::LayerBody(const LayerStack<3>& s, const std::vector<char>& alive, 
 void LayerBody<3>::fill_columns(double bin) {
   low_ = high_ = patches_.front().x[0];
   for (const Patch& p : patches_) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      for (std::size_t d = 0; d < 3; ++d) {
-        low_[d] = std::min(low_[d], p.x[c][d]);
-        high_[d] = std::max(high_[d], p.x[c][d]);
-      }
+    for (std::size_t d = 0; d < 3; ++d) {
+      low_[d] = std::min(low_[d], p.low[d]);
+      high_[d] = std::max(high_[d], p.high[d]);
     }
   }
   bin_ = bin;
@@ -109,19 +111,13 @@ void LayerBody<3>::fill_columns(double bin) {
   const auto count = static_cast<std::size_t>(columns_[0]) * static_cast<std::size_t>(columns_[1]);
   const auto for_columns = [&](const Patch& p, auto&& body) {
     std::array<int, 2> from{}, to{};
-    double low = p.x[0][2], high = low;
     for (std::size_t d = 0; d < 2; ++d) {
-      const auto ends = std::minmax({p.x[0][d], p.x[1][d], p.x[2][d], p.x[3][d]});
-      from[d] = static_cast<int>((ends.first - low_[d]) / bin_);
-      to[d] = static_cast<int>((ends.second - low_[d]) / bin_);
-    }
-    for (std::size_t c = 1; c < 4; ++c) {
-      low = std::min(low, p.x[c][2]);
-      high = std::max(high, p.x[c][2]);
+      from[d] = static_cast<int>((p.low[d] - low_[d]) / bin_);
+      to[d] = static_cast<int>((p.high[d] - low_[d]) / bin_);
     }
     for (int y = from[1]; y <= to[1]; ++y) {
       for (int x = from[0]; x <= to[0]; ++x) {
-        body(static_cast<std::size_t>(y * columns_[0] + x), low, high);
+        body(static_cast<std::size_t>(y * columns_[0] + x));
       }
     }
   };
@@ -138,7 +134,7 @@ void LayerBody<3>::fill_columns(double bin) {
     c.high.assign(count, -none);
   }
   for (std::size_t p = 0; p < patches_.size(); ++p) {
-    for_kinds(p, [&](Kind kind) { for_columns(patches_[p], [&](std::size_t at, double, double) { ++binned_[kind].first[at + 1]; }); });
+    for_kinds(p, [&](Kind kind) { for_columns(patches_[p], [&](std::size_t at) { ++binned_[kind].first[at + 1]; }); });
   }
   std::array<std::vector<int>, kinds> next;
   for (std::size_t kind = 0; kind < kinds; ++kind) {
@@ -151,11 +147,12 @@ void LayerBody<3>::fill_columns(double bin) {
   }
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     for_kinds(p, [&](Kind kind) {
-      for_columns(patches_[p], [&](std::size_t at, double low, double high) {
-        Columns& c = binned_[kind];
+      Columns& c = binned_[kind];
+      c.offset = std::max(c.offset, patches_[p].offset);
+      for_columns(patches_[p], [&](std::size_t at) {
         c.patch[static_cast<std::size_t>(next[kind][at]++)] = static_cast<int>(p);
-        c.low[at] = std::min(c.low[at], low);
-        c.high[at] = std::max(c.high[at], high);
+        c.low[at] = std::min(c.low[at], patches_[p].low[2]);
+        c.high[at] = std::max(c.high[at], patches_[p].high[2]);
       });
     });
   }
@@ -227,7 +224,7 @@ bool LayerBody<3>::outside_of(const OnPatch& at, const Point& point, Point& outw
   }
   const bool outside = dot(off, normal) > 0;
   const double distance = std::sqrt(at.square);
-  if (!in_triangle && distance > 1e-9 * p.radius) {
+  if (!in_triangle && distance > 1e-9 * p.size) {
     for (std::size_t d = 0; d < 3; ++d) {
       outward[d] = (outside ? 1 : -1) * off[d] / distance;
     }
@@ -268,12 +265,13 @@ template <class Body> bool LayerBody<3>::any_near(const Point& point, const doub
         for (int q = c.first[at]; q < c.first[at + 1]; ++q) {
           const int p = c.patch[static_cast<std::size_t>(q)];
           const Patch& patch = patches_[static_cast<std::size_t>(p)];
-          const Point off = minus(point, patch.x[4]);
-          const double away = std::sqrt(dot(off, off)) - patch.radius * (1 + 1e-12);
-          if (away <= 0 || away * away <= square) {
-            if (body(p)) {
-              return true;
-            }
+          double least = 0; // to its box
+          for (std::size_t d = 0; d < 3; ++d) {
+            const double off = beyond(point[d], patch.low[d], patch.high[d]);
+            least += off * off;
+          }
+          if (least <= square && body(p)) {
+            return true;
           }
         }
       }
@@ -285,7 +283,7 @@ template <class Body> bool LayerBody<3>::any_near(const Point& point, const doub
 LayerBody<3>::OnPatch LayerBody<3>::nearest(const Point& point, double square, Kind kind, int side) const {
   OnPatch best;
   any_near(point, square, kind, [&](int p) {
-    if (side < 0 || skin_.patches[static_cast<std::size_t>(p)].side != 1 - side) {
+    if (p != best.patch && (side < 0 || skin_.patches[static_cast<std::size_t>(p)].side != 1 - side)) {
       const OnPatch on = on_patch(p, point);
       if (on.square <= square && on.before(best)) {
         best = on;
@@ -312,7 +310,7 @@ bool LayerBody<3>::foot(const Point& where, double reach, BodyFoot<3>& out, int 
   }
   const bool in_front = outside_of(at, point, out.normal);
   // Nearer to what is hidden: in a layer, or in a slit that is closed. Of a given side what counts is how the point stands to that.
-  const bool inside = !in_front || (side < 0 && any_near(point, at.square, hidden, [&](int p) { return on_patch(p, point).square <= at.square; }));
+  const bool inside = !in_front || (side < 0 && any_near(point, at.square, hidden, [&](int p) { return on_patch(p, point).square < nearer * at.square; }));
   const double distance = std::sqrt(at.square);
   const SkinPatch& s = skin_.patches[static_cast<std::size_t>(at.patch)];
   const auto [u, v] = place(at);
@@ -344,12 +342,34 @@ bool LayerBody<3>::near(const Point& p, double reach) const {
   return !patches_.empty() && p[2] > low_[2] - far && p[2] < high_[2] + far; // along the layers faces may go on
 }
 
+bool LayerBody<3>::may_touch(const Point& where, const Point& box) const {
+  const Point point = held(where);
+  std::array<int, 2> from{}, to{};
+  for (const Kind kind : {surface, padded}) {
+    const Columns& c = binned_[kind];
+    const double more = kind == padded ? c.offset : 0.0;
+    for (std::size_t d = 0; d < 2; ++d) {
+      from[d] = static_cast<int>(std::clamp((point[d] - box[d] - more - low_[d]) / bin_, 0.0, columns_[d] - 1.0));
+      to[d] = static_cast<int>(std::clamp((point[d] + box[d] + more - low_[d]) / bin_, 0.0, columns_[d] - 1.0));
+    }
+    for (int y = from[1]; y <= to[1]; ++y) {
+      for (int x = from[0]; x <= to[0]; ++x) {
+        const auto at = static_cast<std::size_t>(y * columns_[0] + x);
+        if (point[2] + box[2] + more >= c.low[at] && point[2] - box[2] - more <= c.high[at]) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
 bool LayerBody<3>::inside(const Point& where) const {
   const Point point = held(where);
   constexpr double all = std::numeric_limits<double>::infinity();
   const OnPatch at = nearest(point, all, surface);
   Point outward{};
-  return at.patch >= 0 && (!outside_of(at, point, outward) || nearest(point, at.square, hidden).patch >= 0);
+  return at.patch >= 0 && (!outside_of(at, point, outward) || any_near(point, at.square, hidden, [&](int p) { return on_patch(p, point).square < nearer * at.square; }));
 }
 
 } // namespace ballast

@@ -13,6 +13,7 @@ public:
   LayerBody(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin);
 
   bool foot(const std::array<double, 3>& point, double reach, BodyFoot<3>& out, int side = -1) const;
+  bool may_touch(const std::array<double, 3>& point, const std::array<double, 3>& box) const;
   bool inside(const std::array<double, 3>& point) const;
   bool near(const std::array<double, 3>& point, double reach) const;
 
@@ -26,8 +27,8 @@ private:
 
   struct Patch {
     std::array<Point, 5> x; ///< corners, middle
-    double radius;          ///< m: of a ball around the middle that holds it
-    double offset;          ///< m: largest
+    Point low, high;        ///< m: its box
+    double size, offset;    ///< m: largest edge of that; largest offset
   };
   /// The point of a patch nearest to another.
   struct OnPatch {
@@ -46,6 +47,7 @@ private:
   struct Columns {
     std::vector<int> first, patch;
     std::vector<double> low, high; ///< m: across the layers
+    double offset = 0;             ///< m: largest
   };
   /// Calls body(patch) for those of a kind in columns that may be nearer than the square root of `square` (m2, body may lower it), until it returns true.
   template <class Body> bool any_near(const Point& point, const double& square, Kind kind, Body&& body) const;

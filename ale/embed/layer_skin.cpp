@@ -33,6 +33,7 @@ public:
     skin_.vertices.resize(faces * nodes);
     gap_.assign(faces * nodes, apart);
     plain_.assign(faces * nodes, 0);
+    across_.assign(faces * nodes, {0, 0, 0});
     for_columns([&](int layer, Column c) { add_quads(layer, c); });
     add_normals();
     for (int layer = 0; layer < s_.grid.layers; ++layer) {
@@ -155,6 +156,7 @@ private:
         const double length = std::sqrt(dot(n, n));
         for (std::size_t d = 0; d < 3 && length > 0; ++d) {
           v.normal[d] += n[d] / length;
+          across_[static_cast<std::size_t>(p.vertex[q])][d] += p.side < 2 ? n[d] / length : 0.0;
         }
       }
     }
@@ -256,7 +258,8 @@ private:
     }
     if (whole) {
       const Point off = minus(place(q, n, !low), v.x);
-      const double length = std::sqrt(dot(v.normal, v.normal)), across = length > 0 ? dot(off, v.normal) / length : 0.0, square = dot(off, off);
+      const Point& normal = across_[here];
+      const double length = std::sqrt(dot(normal, normal)), across = length > 0 ? dot(off, normal) / length : 0.0, square = dot(off, off);
       const std::size_t node_here = node(layer, n, low), next = n.i < nx_ ? node_here + 1 : node_here - 1;
       const double edge = s_.rest[0][next] - s_.rest[0][node_here];
       if (square - across * across < 0.0625 * edge * edge) {
@@ -341,6 +344,7 @@ private:
   std::vector<Quad> quads_;   ///< of the patches as they are added first
   std::vector<double> gap_;   ///< m: over vertices
   std::vector<char> plain_;
+  std::vector<Point> across_; ///< over vertices: normal without the rims', not unit
 };
 
 } // namespace

@@ -7,6 +7,9 @@ namespace ballast {
 
 inline constexpr double seen_slit = 0.3; ///< of `least_thickness`: a slit between layers is open where it is wider
 
+/// Of a squared distance: what is nearer than that is nearer beyond rounding. A hidden face and the surface share edges.
+inline constexpr double nearer = 1 - 1e-9;
+
 /// Room (m) that a body lacks to `least`, shared between its lower and upper faces: where it has lost elements, since
 /// that room was covered before, else below.
 struct Padding {
