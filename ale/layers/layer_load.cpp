@@ -10,6 +10,12 @@ template <int Dim>
 Eigen::Matrix<double, Dim, 1> pushed(double mass, const Eigen::Matrix<double, Dim, Dim>& added, const Eigen::Matrix<double, Dim, 1>& impulse, unsigned held) {
   Eigen::Matrix<double, Dim, Dim> m = added;
   Eigen::Matrix<double, Dim, 1> j = impulse;
+  if ((added.array() == 0).all()) { // nothing hangs on it
+    for (int d = 0; d < Dim; ++d) {
+      j[d] = (held >> d & 1) != 0 ? 0.0 : impulse[d] / mass;
+    }
+    return j;
+  }
   for (int d = 0; d < Dim; ++d) {
     if ((held >> d & 1) != 0) {
       m.row(d).setZero();
