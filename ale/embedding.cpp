@@ -15,8 +15,73 @@ template <int Dim> std::vector<LayerBody<Dim>> bodies_of(const Scene<Dim>& scene
   return out;
 }
 
+namespace {
+
+/// Signs of nodes near bodies but out of reach of their surfaces. No surface crosses an edge between two of them, so those that hang together are all
+/// inside or all outside, as most nodes around them are.
+template <int Dim> class SignFinder {
+public:
+  explicit SignFinder(const Grid& g) : g_(g), unknown_(static_cast<std::size_t>(g.node_pitch()) * static_cast<std::size_t>(g.node_rows()), 0) {}
+
+  void add(const std::array<int, 3>& node) { unknown_[at(node)] = 1; }
+
+  /// Makes negative the levels of those that are inside; calls inside(node) for each.
+  template <class Visit> void run(RowField& level, Visit&& inside) {
+    std::vector<std::array<int, 3>> part;
+    for_nodes<Dim>(g_, [&](int i, int j, int k) {
+      if (unknown_[at({i, j, k})] == 0) {
+        return;
+      }
+      long votes = 0;
+      part.assign(1, {i, j, k});
+      unknown_[at({i, j, k})] = 0;
+      for (std::size_t n = 0; n < part.size(); ++n) {
+        const std::array<int, 3> node = part[n];
+        for (std::size_t axis = 0; axis < Dim; ++axis) {
+          for (const int side : {-1, 1}) {
+            std::array<int, 3> to = node;
+            to[axis] += side;
+            if (to[axis] < 0 || to[axis] > g_.cells[axis]) {
+              continue;
+            }
+            if (unknown_[at(to)] != 0) {
+              unknown_[at(to)] = 0;
+              part.push_back(to);
+            } else if (seen_.empty() || seen_[at(to)] == 0) {
+              votes += level.row(g_.node_row(to[1], to[2]))[to[0]] > 0 ? 1 : -1;
+            }
+          }
+        }
+        mark(node);
+      }
+      for (const std::array<int, 3>& node : part) {
+        if (votes < 0) {
+          double& l = level.row(g_.node_row(node[1], node[2]))[node[0]];
+          l = -std::abs(l);
+          inside(node);
+        }
+      }
+    });
+  }
+
+private:
+  std::size_t at(const std::array<int, 3>& node) const { return node_at(g_, g_.node_row(node[1], node[2]), node[0]); }
+  /// Of a part: does not vote.
+  void mark(const std::array<int, 3>& node) {
+    if (seen_.empty()) {
+      seen_.assign(unknown_.size(), 0);
+    }
+    seen_[at(node)] = 1;
+  }
+
+  const Grid& g_;
+  std::vector<char> unknown_, seen_;
+};
+
+} // namespace
+
 template <int Dim>
-Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position, const std::vector<LayerBody<Dim>>& bodies, const Levels<Dim>* before, ThreadPool& pool) {
+Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position, const std::vector<LayerBody<Dim>>& bodies, ThreadPool& pool) {
   Levels<Dim> out;
   out.level = RowField::of_nodes(g, 1.0);
   out.foot_of.assign(static_cast<std::size_t>(g.node_pitch()) * static_cast<std::size_t>(g.node_rows()), -1);
@@ -26,6 +91,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
   }
   const int rows = (g.cells[1] + 1) * (Dim == 3 ? g.cells[2] + 1 : 1);
   std::vector<std::vector<NodeFoot<Dim>>> found(static_cast<std::size_t>(rows)); // by row of nodes
+  std::vector<std::vector<int>> unknown(static_cast<std::size_t>(rows));
   std::vector<char> holds(static_cast<std::size_t>(rows), 0);
   const auto level_of = [&](int i, int j, int k, std::vector<NodeFoot<Dim>>& feet) {
     const int r = g.node_row(j, k);
@@ -66,16 +132,8 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       }
       return;
     }
-    bool inside = false;
-    if (before != nullptr) {
-      inside = !(before->level.row(r)[i] > 0);
-    } else {
-      for (const LayerBody<Dim>& body : bodies) {
-        inside = inside || body.inside(x);
-      }
-    }
-    level = inside ? -reach : reach;
-    holds[static_cast<std::size_t>(j + k * (g.cells[1] + 1))] |= inside ? 1 : 0;
+    level = reach;
+    unknown[static_cast<std::size_t>(j + k * (g.cells[1] + 1))].push_back(i);
   };
   parallel_ranges(pool, rows, [&](int begin, int end, int) {
     for (int row = begin; row < end; ++row) {
@@ -84,6 +142,13 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       }
     }
   });
+  SignFinder<Dim> signs(g);
+  for (int row = 0; row < rows; ++row) {
+    for (const int i : unknown[static_cast<std::size_t>(row)]) {
+      signs.add({i, row % (g.cells[1] + 1), row / (g.cells[1] + 1)});
+    }
+  }
+  signs.run(out.level, [&](const std::array<int, 3>& node) { holds[static_cast<std::size_t>(node[1] + node[2] * (g.cells[1] + 1))] = 1; });
   for (int row = 0; row < rows; ++row) {
     const auto first = static_cast<int>(out.feet.size());
     const int across = Dim == 3 ? row / (g.cells[1] + 1) : row; // along the last axis
@@ -186,7 +251,7 @@ template <int Dim> double face_opening(const Grid& g, const Levels<Dim>& levels,
 
 #define BALLAST_INSTANTIATE(D) \
   template std::vector<LayerBody<D>> bodies_of<D>(const Scene<D>&, const Embedding<D>&); \
-  template Levels<D> find_levels<D>(const Grid&, const std::array<RowField, D>&, const std::vector<LayerBody<D>>&, const Levels<D>*, ThreadPool&); \
+  template Levels<D> find_levels<D>(const Grid&, const std::array<RowField, D>&, const std::vector<LayerBody<D>>&, ThreadPool&); \
   template LevelCell<D> level_cell<D>(const Grid&, const std::array<RowField, D>&, const Levels<D>&, const std::array<int, 3>&, std::array<int, 1 << D>*); \
   template int open_side<D>(const Grid&, const Levels<D>&, std::span<const std::array<int, 3>>); \
   template double level_on<D>(const Grid&, const Levels<D>&, const std::array<int, 3>&, int); \

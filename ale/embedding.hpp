@@ -126,9 +126,9 @@ template <int Dim> std::array<std::array<int, 3>, 1 << (Dim - 1)> face_nodes(int
   return nodes;
 }
 
-/// Levels of all nodes at `position`; `before`: signs of nodes out of reach are as there, null: found anew. The same for any pool.
+/// Levels of all nodes at `position`. The same for any pool.
 template <int Dim>
-Levels<Dim> find_levels(const Grid& grid, const std::array<RowField, Dim>& position, const std::vector<LayerBody<Dim>>& bodies, const Levels<Dim>* before, ThreadPool& pool);
+Levels<Dim> find_levels(const Grid& grid, const std::array<RowField, Dim>& position, const std::vector<LayerBody<Dim>>& bodies, ThreadPool& pool);
 
 /// The bodies as the stacks stand.
 template <int Dim> std::vector<LayerBody<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e);

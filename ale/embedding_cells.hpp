@@ -123,6 +123,19 @@ double mean_velocity(const Block<Dim>& b, const std::array<RowField, Dim>& veloc
   return u + (sliding / mass - remap::node_follows(sliding, mass)) * jump[d].row(r)[i];
 }
 
+/// The velocity (m/s) at which a wall holds this component of a node's, or null.
+template <int Dim> const double* held_along(const Block<Dim>& b, const std::array<int, 3>& node, std::size_t component) {
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const int at = side == 0 ? 0 : b.grid.cells[static_cast<std::size_t>(axis)];
+      if (node[static_cast<std::size_t>(axis)] == at && b.boundary.fixes_normal_velocity(axis, side) && b.boundary.normal_of(axis, side) == static_cast<int>(component)) {
+        return &b.boundary.at(axis, side).velocity;
+      }
+    }
+  }
+  return nullptr;
+}
+
 /// All that is at a node moves faster by `change` (m/s) in one component; J of kinetic energy that it gains.
 template <int Dim> double shift_velocity(Block<Dim>& b, std::size_t d, int r, int i, double change) {
   const double mean = mean_velocity<Dim>(b, b.velocity, b.sliding.jump, d, r, i);

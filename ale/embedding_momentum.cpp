@@ -1,5 +1,6 @@
 // Momentum goes corner by corner with the mass, one transfer after the other, at the velocity that the corner it leaves has by then.
 // What slides and the rest have velocities, and momenta, of their own (remap/mesh.hpp, Sliding).
+#include "ale/embedding_cells.hpp"
 #include "ale/embedding_pass.hpp"
 
 namespace ballast {
@@ -162,6 +163,12 @@ template <int Dim> void EmbeddedRemap<Dim>::move_momentum() {
     const auto old = n.share;
     for (NodeShare<Dim>& s : n.share) {
       set_velocity(s);
+      for (std::size_t d = 0; d < Dim && s.mass > 0; ++d) { // what has come to a wall
+        if (const double* wall = held_along(b_, n.at, d)) {
+          scene_.ledger.momentum_out[d] += s.mass * (s.velocity[d] - *wall);
+          s.velocity[d] = *wall;
+        }
+      }
       after += kinetic(s, s.mass);
     }
     if (n.share[0].velocity != old[0].velocity || n.share[1].velocity != old[1].velocity || n.share[0].mass != old[0].start || n.share[1].mass != old[1].start) {

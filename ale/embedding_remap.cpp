@@ -50,7 +50,7 @@ template <int Dim> void EmbeddedRemap<Dim>::find_levels_on_the_way() {
       between_[next][d] = b_.target[d];
     }
     path_[next] = next < Dim ? &between_[next] : &b_.target;
-    levels_[next] = find_levels<Dim>(g_, *path_[next], bodies, &e_.now, *scene_.pool);
+    levels_[next] = find_levels<Dim>(g_, *path_[next], bodies, *scene_.pool);
   }
   find_cells<Dim>(b_, *path_[0], levels_[0], lag_.kind, lag_.cut);
   find_cells<Dim>(b_, *path_[Dim], levels_[Dim], target_.kind, target_.cut);
@@ -366,6 +366,8 @@ template <int Dim> void restore_open_volumes(Embedding<Dim>& e, Block<Dim>& b) {
 
 template int EmbeddedRemap<2>::find_side(const std::array<int, 3>&) const;
 template int EmbeddedRemap<3>::find_side(const std::array<int, 3>&) const;
+template double EmbeddedRemap<2>::own_aperture(const Levels<2>&, std::size_t, std::size_t, const std::array<int, 3>&) const;
+template double EmbeddedRemap<3>::own_aperture(const Levels<3>&, std::size_t, std::size_t, const std::array<int, 3>&) const;
 template void remap_embedded<2>(Scene<2>&, Embedding<2>&, Block<2>&, remap::Mesh<2>&, const remap::Settings&, long);
 template void remap_embedded<3>(Scene<3>&, Embedding<3>&, Block<3>&, remap::Mesh<3>&, const remap::Settings&, long);
 template void pool_embedded<2>(Scene<2>&, Embedding<2>&, Block<2>&);

@@ -152,7 +152,7 @@ template <int Dim> std::array<double, Dim> across_face(const LayerStack<Dim>& s,
 
 /// No cell may have open corners on both sides of a body: across it the body is as thick as the cells around it are wide, wherever it is by now.
 template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<Dim>& e) {
-  constexpr double spare = 1.2; // cells are stretched until the next remap
+  constexpr double spare = 1.4; // cells are stretched until the next remap, layers bend
   const EdgeFinder<Dim> edges(scene.blocks[static_cast<std::size_t>(e.block)]);
   e.bin = std::numeric_limits<double>::infinity();
   e.longest_edge = 0;
@@ -212,7 +212,7 @@ template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e) {
   keep_alive(scene, e);
   find_least_thickness(scene, e);
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
-  e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), nullptr, *scene.pool);
+  e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), *scene.pool);
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
   e.rows = e.now.rows;
 }
@@ -266,7 +266,7 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
   const std::vector<int> before = std::exchange(e.kind, {});
   if (keep_alive(scene, e)) { // else they are where the last step left them; signs anew: far from all faces there may be no body any more
     find_least_thickness(scene, e);
-    e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), nullptr, *scene.pool);
+    e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), *scene.pool);
   }
   find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
   const Span were = std::exchange(e.rows, e.now.rows);
@@ -324,7 +324,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
   find_least_thickness(scene, e);
-  e.next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), &e.now, *scene.pool);
+  e.next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), *scene.pool);
   const Levels<Dim>& next = e.next;
   for_cells_beside<Dim>(g, both_rows(e.rows, next.rows), [&](int i, int j, int k) {
     const int r = g.cell_row(j, k);

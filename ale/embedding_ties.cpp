@@ -67,18 +67,6 @@ template <int Dim> bool is_tied(const Embedding<Dim>& e, const Block<Dim>& b, co
   return touches;
 }
 
-/// Does a wall hold this component of a node's velocity?
-template <int Dim> bool fixed_along(const Block<Dim>& b, const std::array<int, 3>& node, std::size_t component) {
-  bool fixed = false;
-  for (int axis = 0; axis < Dim; ++axis) {
-    for (int side = 0; side < 2; ++side) {
-      const int at = side == 0 ? 0 : b.grid.cells[static_cast<std::size_t>(axis)];
-      fixed = fixed || (node[static_cast<std::size_t>(axis)] == at && b.boundary.fixes_normal_velocity(axis, side) && b.boundary.normal_of(axis, side) == static_cast<int>(component));
-    }
-  }
-  return fixed;
-}
-
 constexpr double least_along_wall = 0.3; ///< of the normal: below it a node on a wall is free
 
 /// How a node is tied; false: the wall it lies on faces the body.
@@ -224,7 +212,7 @@ template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, B
     const int r = g.node_row(heavy[1], heavy[2]), i = heavy[0];
     for (std::size_t d = 0; d < Dim; ++d) {
       const double u = b.velocity[d].row(f.row)[f.index], v = b.velocity[d].row(r)[i];
-      if (fixed_along(b, node, d) || fixed_along(b, heavy, d)) {
+      if (held_along(b, node, d) != nullptr || held_along(b, heavy, d) != nullptr) {
         continue;
       }
       const double both = (mass * u + most * v) / (mass + most);

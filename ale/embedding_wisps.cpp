@@ -55,18 +55,19 @@ template <int Dim> void EmbeddedRemap<Dim>::relieve() {
     }
     double widest = 0;
     std::size_t to = c;
-    for (int n = 0; n < (Dim == 3 ? 27 : 9); ++n) {
-      const std::array<int, 3> step = {n % 3 - 1, n / 3 % 3 - 1, Dim == 3 ? n / 9 - 1 : 0}, cell = {cells_[c][0] + step[0], cells_[c][1] + step[1], cells_[c][2] + step[2]};
-      if (!inside(cell) || place_[dense(cell)] < 0) {
-        continue;
-      }
-      const auto q = static_cast<std::size_t>(place_[dense(cell)]);
-      const bool apart = side_[c] >= 0 && side_[q] >= 0 && side_[c] != side_[q];
-      const int square = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
-      const double room_there = q == c || apart || !(room(q) > 0) ? 0.0 : std::max(at(q, last, 0), 0.0) / square;
-      if (room_there > widest) {
-        widest = room_there;
-        to = q;
+    for (std::size_t axis = 0; axis < Dim; ++axis) {
+      for (const int side : {-1, 1}) {
+        std::array<int, 3> cell = cells_[c];
+        cell[axis] += side;
+        if (!inside(cell) || place_[dense(cell)] < 0 || !(own_aperture(levels_[target_.at], c, axis, side < 0 ? cells_[c] : cell) > 0)) {
+          continue;
+        }
+        const auto q = static_cast<std::size_t>(place_[dense(cell)]);
+        const double room_there = room(q) > 0 ? at(q, last, 0) : 0.0;
+        if (room_there > widest) {
+          widest = room_there;
+          to = q;
+        }
       }
     }
     if (to == c) {
