@@ -1,4 +1,5 @@
 // Viscosity of cut cells and the step that they allow.
+#include "ale/embedding_cells.hpp"
 #include "ale/embedding_motion.hpp"
 
 #include <algorithm>
@@ -66,10 +67,15 @@ template <int Dim> void embedded_rates(const Embedding<Dim>& e, Block<Dim>& b) {
       for (int i = 0; i < g.cells[0]; ++i) {
         const int kind = e.kind_of(g, r, i);
         // The block's own were made with the open part for a volume: rates in 2D, lengths in 3D (ale/viscosity).
-        const double open = kind >= 0 ? b.volume.row(r)[i] / e.cut[static_cast<std::size_t>(kind)].whole : 0.0;
-        for (std::size_t d = 0; d < Dim && kind != open_cell; ++d) {
-          b.strain_rate[d].row(r)[i] *= Dim == 3 && open > 0 ? 1.0 : open;
-          b.length[d].row(r)[i] /= Dim == 3 && open > 0 ? open : 1.0;
+        if (kind == open_cell) {
+          continue;
+        }
+        const double room = b.volume.row(r)[i];
+        const double open = kind >= 0 ? room / e.cut[static_cast<std::size_t>(kind)].whole : 0.0;
+        const double longer = Dim == 2 || !(b.density.row(r)[i] > 0) ? 1.0 : kind >= 0 ? 1 / open : whole_volume<Dim>(b, b.position, i, j, k) / room; // a pocket's, too
+        for (std::size_t d = 0; d < Dim; ++d) {
+          b.strain_rate[d].row(r)[i] *= Dim == 2 || kind == covered_cell ? open : 1.0;
+          b.length[d].row(r)[i] *= longer;
         }
       }
     }

@@ -264,7 +264,7 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   const Grid& g = b.grid;
   const std::vector<int> before = std::exchange(e.kind, {});
-  if (keep_alive(scene, e)) { // else they are where the last step left them; signs anew: far from all faces there may be no body any more
+  if (keep_alive(scene, e)) { // else they are where the last step left them
     find_least_thickness(scene, e);
     e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), *scene.pool);
   }

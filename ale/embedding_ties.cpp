@@ -269,7 +269,6 @@ template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e) {
       scene.layers[s].load.added[at] += w * mass * n * n.transpose();
       impulse[s][at] += w * mass * excess * n;
     });
-    book_wall(scene.ledger, f, mass * excess);
   }
   for (std::size_t s = 0; s < scene.layers.size(); ++s) {
     Layers<Dim>& l = scene.layers[s];
@@ -279,9 +278,10 @@ template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e) {
       const std::size_t n = l.load.node[at];
       const unsigned bits = held[n % held.size()];
       const auto change = pushed<Dim>(l.stack.mass[n], l.load.added[at], impulse[s][at], bits);
+      const typename LayerLoad<Dim>::Vector carried = l.load.added[at] * change;
       for (int d = 0; d < Dim; ++d) {
         l.stack.velocity[static_cast<std::size_t>(d)][n] += change[d];
-        l.ledger.edge_impulse[static_cast<std::size_t>(d)] -= (bits >> d & 1) != 0 ? impulse[s][at][d] : 0.0;
+        l.ledger.edge_impulse[static_cast<std::size_t>(d)] -= (bits >> d & 1) != 0 ? impulse[s][at][d] - carried[d] : 0.0;
       }
     }
   }
@@ -290,6 +290,7 @@ template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e) {
     if (f.tied && mass > 0) {
       scene.ledger.embedded_given -= mass * (then - now) * (mean_along<Dim>(b, b.velocity, b.sliding.jump, f) + 0.5 * (then - now));
       add_along<Dim>(b.velocity, f, then - now);
+      book_wall(scene.ledger, f, mass * (now - then));
     } else if (!(f.foot.level > 0) && !(mass > 0) && is_own(e, b.grid, f)) { // nothing hangs on it: it goes along
       for (std::size_t d = 0; d < Dim; ++d) {
         b.velocity[d].row(f.row)[f.index] = 0;
@@ -309,7 +310,6 @@ template <int Dim> void load_layers(Scene<Dim>& scene, Embedding<Dim>& e, double
     const double force = mass * (speed_along<Dim>(b.next_velocity, f) - speed_along<Dim>(b.velocity, f)) / dt;
     LayerLoad<Dim>& load = scene.layers[static_cast<std::size_t>(f.stack)].load;
     for_foot(load, f.foot, [&](std::size_t at, double w) { load.force[at] += w * force * vector_of<Dim>(f.carry); });
-    book_wall(scene.ledger, f, force * dt);
   }
   for (std::size_t at_cut = 0; at_cut < e.cut.size(); ++at_cut) {
     const CutCell<Dim>& c = e.cut[at_cut];
@@ -348,6 +348,7 @@ template <int Dim> void follow_layers(Scene<Dim>& scene, Embedding<Dim>& e, doub
       const double mean = 0.5 * (mean_along<Dim>(b, b.velocity, b.sliding.jump, f) + mean_along<Dim>(b, b.next_velocity, b.sliding.next_jump, f));
       gained += mass * (then - unbound) * (mean + 0.5 * (then - unbound));
       add_along<Dim>(b.next_velocity, f, then - unbound);
+      book_wall(scene.ledger, f, mass * (unbound - then));
       add_along<Dim>(b.next_position, f, 0.5 * dt * (then - unbound));
     } else if (!(f.foot.level > 0) && !(mass > 0) && is_own(e, b.grid, f)) {
       for (std::size_t d = 0; d < Dim; ++d) {

@@ -333,6 +333,10 @@ void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, SceneSpec& scene
   for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
     read_one({deck, book, scene}, list->items[i]);
   }
+  if (!scene.layers.empty() && deck.clean() && embeds_layers(scene.motion) && scene.map.curved()) { // their room is found along straight lines
+    const DeckNode& first = list->items.front();
+    deck.fail({first.place, first.key, "layers lie inside a mesh of straight lines only, and this one has a map", "no mesh.map; or motion.policy = \"lagrangian\", or \"relax\" with its boundary lagrangian"});
+  }
 }
 
 } // namespace ballast

@@ -249,14 +249,4 @@ bool LayerBody<2>::near(const std::array<double, 2>& p, double reach) const {
   return !faces_.empty() && p[1] > low_[1] - far && p[1] < high_[1] + far; // along the layers faces may go on
 }
 
-bool LayerBody<2>::inside(const std::array<double, 2>& p) const {
-  OnFace at;
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const OnFace on = on_face(static_cast<int>(f), p);
-    at = on.before(at) ? on : at;
-  }
-  std::array<double, 2> outward{};
-  return at.face >= 0 && (faces_[static_cast<std::size_t>(at.face)].hidden || !outside_of(at, p, outward));
-}
-
 } // namespace ballast

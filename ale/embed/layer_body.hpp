@@ -41,9 +41,6 @@ public:
   /// May a face be in the box around a point, `box` (m) to either side along each axis? For skipping points that are far.
   bool may_touch(const std::array<double, 2>&, const std::array<double, 2>&) const { return true; }
 
-  /// Is a point inside, however far from the faces?
-  bool inside(const std::array<double, 2>& point) const;
-
   /// Is a point within `reach` of the box around the faces? Beyond ends that go on, too.
   bool near(const std::array<double, 2>& point, double reach) const;
 

@@ -364,12 +364,4 @@ bool LayerBody<3>::may_touch(const Point& where, const Point& box) const {
   return false;
 }
 
-bool LayerBody<3>::inside(const Point& where) const {
-  const Point point = held(where);
-  constexpr double all = std::numeric_limits<double>::infinity();
-  const OnPatch at = nearest(point, all, surface);
-  Point outward{};
-  return at.patch >= 0 && (!outside_of(at, point, outward) || any_near(point, at.square, hidden, [&](int p) { return on_patch(p, point).square < nearer * at.square; }));
-}
-
 } // namespace ballast

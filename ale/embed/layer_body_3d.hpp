@@ -14,7 +14,6 @@ public:
 
   bool foot(const std::array<double, 3>& point, double reach, BodyFoot<3>& out, int side = -1) const;
   bool may_touch(const std::array<double, 3>& point, const std::array<double, 3>& box) const;
-  bool inside(const std::array<double, 3>& point) const;
   bool near(const std::array<double, 3>& point, double reach) const;
 
   void set_longest_reach(double reach) { longest_reach_ = reach; }

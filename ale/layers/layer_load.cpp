@@ -39,8 +39,9 @@ template <int Dim> void put_on(LayerStack<Dim>& s, LayerLoad<Dim>& load) {
     }
     load.own[q] = own;
     const typename LayerLoad<Dim>::Vector all = own + load.force[q], a = pushed<Dim>(s.mass[n], load.added[q], all, bits);
-    for (int d = 0; d < Dim; ++d) { // what holds a node feels everything
-      s.force[static_cast<std::size_t>(d)][n] = (bits >> d & 1) != 0 ? all[d] : s.mass[n] * a[d];
+    const typename LayerLoad<Dim>::Vector carried = load.added[q] * a;
+    for (int d = 0; d < Dim; ++d) { // what holds a node feels all that it does not hand on to what hangs there
+      s.force[static_cast<std::size_t>(d)][n] = (bits >> d & 1) != 0 ? all[d] - carried[d] : s.mass[n] * a[d];
     }
   }
 }

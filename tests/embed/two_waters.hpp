@@ -62,7 +62,11 @@ template <int Dim> Scene<Dim> two_waters(const WaterBox& box, double along, doub
   middle[last] = box.z;
   normal[last] = 1;
   normal = turned<Dim>(box, normal);
-  const double padded = std::max(0.0, 1.2 * std::sqrt(static_cast<double>(Dim)) * box.cell - box.thickness); // below (ale/embed/layer_body)
+  double width = 0; // of a cell across the plate
+  for (const double n : normal) {
+    width += std::abs(n) * box.cell;
+  }
+  const double padded = std::max(0.0, 1.4 * width - box.thickness); // below (ale/embed/layer_body)
   for_each_cell(b, [&](int i, int j, int k) {
     const std::array<int, 3> at = {i, j, k};
     double above = 0, z = 0;
