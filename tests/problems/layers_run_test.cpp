@@ -318,6 +318,7 @@ TEST(LayersRun, RestartGoesOnBitForBit) {
   expect_restart_goes_on<2>(bullet_deck(false));
   expect_restart_goes_on<3>(bullet_deck(true));
   expect_restart_goes_on<2>(embedded_deck());
+  expect_restart_goes_on<3>(embedded_deck_3d());
 }
 
 } // namespace
