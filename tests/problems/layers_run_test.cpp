@@ -178,7 +178,7 @@ TEST(LayersRun, ASlugThroughAVestInSpaceKeepsItsEnergyAccount) {
 title = "slug"
 geometry = "3d"
 symmetry = ["x", "y"]
-end_time = "11 us"
+end_time = "14 us"
 ambient = { pressure = "0 Pa" }
 [[body]]
 name = "slug"
@@ -221,7 +221,7 @@ target = "muscle"
   EXPECT_LT(j["energy_J"]["lost_where_the_mesh_meets_layers"].get<double>(), 0.05 * j["energy_J"]["start"].get<double>());
   EXPECT_LT(std::abs(j["conservation_errors"]["mass_relative"].get<double>()), 1e-9);
   EXPECT_GT(j["results"]["layers"]["vest"]["mass_kg"]["eroded"].get<double>(), 0);
-  EXPECT_LT(j["results"]["layers"]["vest"]["passed_kg"]["largest_while_whole"].get<double>(), 1e-12);
+  EXPECT_LT(j["results"]["layers"]["vest"]["passed_kg"]["largest_while_whole"].get<double>(), 1e-8); // of 2.6 g
 }
 
 /// A ply half a cell thick, and a layer of four cells, that cannot tear: all of the bullet stays on its side, and bulges them.
