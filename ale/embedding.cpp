@@ -21,20 +21,23 @@ namespace {
 /// inside or all outside, as most nodes around them are.
 template <int Dim> class SignFinder {
 public:
-  explicit SignFinder(const Grid& g) : g_(g), unknown_(static_cast<std::size_t>(g.node_pitch()) * static_cast<std::size_t>(g.node_rows()), 0) {}
+  explicit SignFinder(const Grid& g) : g_(g), state_(static_cast<std::size_t>(g.node_pitch()) * static_cast<std::size_t>(g.node_rows()), known) {}
 
-  void add(const std::array<int, 3>& node) { unknown_[at(node)] = 1; }
+  void add(const std::array<int, 3>& node) {
+    state_[at(node)] = unknown;
+    nodes_.push_back(node);
+  }
 
   /// Makes negative the levels of those that are inside; calls inside(node) for each.
   template <class Visit> void run(RowField& level, Visit&& inside) {
     std::vector<std::array<int, 3>> part;
-    for_nodes<Dim>(g_, [&](int i, int j, int k) {
-      if (unknown_[at({i, j, k})] == 0) {
-        return;
+    for (const std::array<int, 3>& first : nodes_) {
+      if (state_[at(first)] != unknown) {
+        continue;
       }
       long votes = 0;
-      part.assign(1, {i, j, k});
-      unknown_[at({i, j, k})] = 0;
+      part.assign(1, first);
+      state_[at(first)] = of_a_part;
       for (std::size_t n = 0; n < part.size(); ++n) {
         const std::array<int, 3> node = part[n];
         for (std::size_t axis = 0; axis < Dim; ++axis) {
@@ -44,15 +47,14 @@ public:
             if (to[axis] < 0 || to[axis] > g_.cells[axis]) {
               continue;
             }
-            if (unknown_[at(to)] != 0) {
-              unknown_[at(to)] = 0;
+            if (state_[at(to)] == unknown) {
+              state_[at(to)] = of_a_part;
               part.push_back(to);
-            } else if (seen_.empty() || seen_[at(to)] == 0) {
+            } else if (state_[at(to)] == known) {
               votes += level.row(g_.node_row(to[1], to[2]))[to[0]] > 0 ? 1 : -1;
             }
           }
         }
-        mark(node);
       }
       for (const std::array<int, 3>& node : part) {
         if (votes < 0) {
@@ -61,21 +63,16 @@ public:
           inside(node);
         }
       }
-    });
+    }
   }
 
 private:
   std::size_t at(const std::array<int, 3>& node) const { return node_at(g_, g_.node_row(node[1], node[2]), node[0]); }
-  /// Of a part: does not vote.
-  void mark(const std::array<int, 3>& node) {
-    if (seen_.empty()) {
-      seen_.assign(unknown_.size(), 0);
-    }
-    seen_[at(node)] = 1;
-  }
 
+  enum State : char { known, unknown, of_a_part }; ///< of a part: no vote
   const Grid& g_;
-  std::vector<char> unknown_, seen_;
+  std::vector<State> state_;
+  std::vector<std::array<int, 3>> nodes_;
 };
 
 } // namespace

@@ -49,7 +49,11 @@ template <int Dim> void EmbeddedRemap<Dim>::relieve() {
     if (special_[dense(cells_[c])] == 0 || !(to_volume_[c] > 0)) {
       continue;
     }
-    const double gap = std::max(at(c, last, 0), 0.0), excess = to_volume_[c] - gap - open_of(target_, cells_[c]);
+    double held = 0;
+    for (int m = 0; m < last; ++m) {
+      held += std::max(at(c, m, 0), 0.0);
+    }
+    const double excess = held - open_of(target_, cells_[c]);
     if (!(excess > spare * whole_of(target_, cells_[c]))) {
       continue;
     }
@@ -63,7 +67,8 @@ template <int Dim> void EmbeddedRemap<Dim>::relieve() {
           continue;
         }
         const auto q = static_cast<std::size_t>(place_[dense(cell)]);
-        const double room_there = room(q) > 0 ? at(q, last, 0) : 0.0;
+        const bool apart = side_[c] >= 0 && side_[q] >= 0 && side_[q] != side_[c];
+        const double room_there = room(q) > 0 && !apart ? at(q, last, 0) : 0.0;
         if (room_there > widest) {
           widest = room_there;
           to = q;
@@ -73,7 +78,7 @@ template <int Dim> void EmbeddedRemap<Dim>::relieve() {
     if (to == c) {
       continue;
     }
-    const double volume = std::min(excess, most_of_void * at(to, last, 0)), share = volume / (to_volume_[c] - gap);
+    const double volume = std::min(excess, most_of_void * at(to, last, 0)), share = volume / held;
     const std::array<double, 2> before = masses_of(c);
     for (int m = 0; m < last; ++m) {
       for (int f = 0; f < fields(m); ++f) {
@@ -83,7 +88,7 @@ template <int Dim> void EmbeddedRemap<Dim>::relieve() {
       }
     }
     at(to, last, 0) -= volume;
-    to_volume_[c] -= volume;
+    to_volume_[c] = std::max(to_volume_[c] - volume, open_of(target_, cells_[c]));
     transfer_change(c, to, before);
     touched_[c] = touched_[to] = 1;
   }

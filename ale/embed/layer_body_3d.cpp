@@ -193,6 +193,20 @@ std::array<double, 2> LayerBody<3>::place(const OnPatch& at) const {
   return out;
 }
 
+std::array<double, 4> LayerBody<3>::weights(const OnPatch& at) const {
+  const SkinPatch& p = skin_.patches[static_cast<std::size_t>(at.patch)];
+  std::array<double, 4> out{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    const auto [u, v] = corner_place(p, c);
+    const auto w = corner_weights(u, v);
+    const double share = 0.25 * at.weight[2] + (c == static_cast<std::size_t>(at.edge) ? at.weight[0] : 0.0) + (c == static_cast<std::size_t>((at.edge + 1) & 3) ? at.weight[1] : 0.0);
+    for (std::size_t q = 0; q < 4; ++q) {
+      out[q] += share * w[q];
+    }
+  }
+  return out;
+}
+
 bool LayerBody<3>::outside_of(const OnPatch& at, const Point& point, Point& outward) const {
   const SkinPatch& s = skin_.patches[static_cast<std::size_t>(at.patch)];
   const Patch& p = patches_[static_cast<std::size_t>(at.patch)];
@@ -313,8 +327,7 @@ bool LayerBody<3>::foot(const Point& where, double reach, BodyFoot<3>& out, int 
   const bool inside = !in_front || (side < 0 && any_near(point, at.square, hidden, [&](int p) { return on_patch(p, point).square < nearer * at.square; }));
   const double distance = std::sqrt(at.square);
   const SkinPatch& s = skin_.patches[static_cast<std::size_t>(at.patch)];
-  const auto [u, v] = place(at);
-  out.weight = corner_weights(u, v);
+  out.weight = weights(at);
   out.node = s.node;
   double offset = 0;
   Point to = {0, 0, 0};

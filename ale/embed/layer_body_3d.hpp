@@ -37,8 +37,10 @@ private:
     bool before(const OnPatch& other) const { return square < other.square || (square == other.square && patch < other.patch); }
   };
   OnPatch on_patch(int patch, const Point& point) const;
-  /// Where in its quadrilateral that is; weights of its nodes.
+  /// Where in its quadrilateral that is.
   std::array<double, 2> place(const OnPatch& at) const;
+  /// Of the quadrilateral's nodes: the point lies on a triangle, so they are not those of its place on a bent one.
+  std::array<double, 4> weights(const OnPatch& at) const;
   /// Is `point` outside of the layer of the patch it is nearest to, and which way is out?
   bool outside_of(const OnPatch& at, const Point& point, Point& outward) const;
 

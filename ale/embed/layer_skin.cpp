@@ -260,8 +260,11 @@ private:
       const Point off = minus(place(q, n, !low), v.x);
       const Point& normal = across_[here];
       const double length = std::sqrt(dot(normal, normal)), across = length > 0 ? dot(off, normal) / length : 0.0, square = dot(off, off);
-      const std::size_t node_here = node(layer, n, low), next = n.i < nx_ ? node_here + 1 : node_here - 1;
-      const double edge = s_.rest[0][next] - s_.rest[0][node_here];
+      const auto length_beside = [&](const std::vector<double>& line, int at) {
+        const auto next = static_cast<std::size_t>(at + 1 < static_cast<int>(line.size()) ? at : at - 1);
+        return line[next + 1] - line[next];
+      };
+      const double edge = std::min(length_beside(s_.lines[0], n.i), length_beside(s_.lines[1], n.j));
       if (square - across * across < 0.0625 * edge * edge) {
         gap_[here] = std::abs(across);
         plain_[here] = 1;

@@ -25,13 +25,6 @@ template <int Dim> struct LevelCell {
   std::array<std::array<double, Dim>, corners> x = {};
   std::array<double, corners> level = {};
 
-  bool open() const {
-    bool all = true;
-    for (const double l : level) {
-      all = all && l > 0;
-    }
-    return all;
-  }
   bool covered() const {
     bool all = true;
     for (const double l : level) {

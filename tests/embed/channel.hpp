@@ -29,7 +29,7 @@ struct ChannelState {
 };
 
 /// Cells of `cell` m from 0 to `length` along the last axis, `across` of them wide between walls; `state` gives what is at a cell's
-/// middle; outside it void. The cells that `plate_from`..`plate_to` covers are void at the start.
+/// middle; outside it void.
 template <int Dim = 2> Block<Dim> channel(double length, double cell, int across, const std::function<ChannelState(double)>& state, const Material& material = channel_water()) {
   Block<Dim> b;
   b.motion = {MotionPolicy::eulerian, 1};

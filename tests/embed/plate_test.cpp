@@ -90,6 +90,28 @@ TEST(EmbeddedPlate, WaterOnAPlateMatchesImpedanceIn3D) {
   }
 }
 
+/// Far inside a thick plate all is covered, however wide it is.
+template <int Dim> void expect_covered() {
+  constexpr double cell = 1e-3;
+  const Material water = channel_water();
+  Scene<Dim> scene;
+  scene.blocks.push_back(channel<Dim>(40 * cell, cell, 12, [&](double at) { return ChannelState{at < 10 * cell, water.density, water.specific_energy, 0}; }));
+  scene.layers.push_back(plate_across<Dim>({30e9, 0.3, 2000}, 12 * cell, 4, 12.3 * cell, 28.3 * cell, 4));
+  embed(scene);
+  const Grid& g = scene.blocks[0].grid;
+  for_each_cell(scene.blocks[0], [&](int i, int j, int k) {
+    const int across = Dim == 3 ? k : j;
+    const bool inside = across >= 13 && across < 28, outside = across < 12 || across > 28;
+    const int kind = scene.embedded[0]->kind_of(g, g.cell_row(j, k), i);
+    EXPECT_EQ(kind == covered_cell, inside) << i << ' ' << j << ' ' << k;
+    EXPECT_EQ(kind == open_cell, outside) << i << ' ' << j << ' ' << k;
+  });
+}
+TEST(EmbeddedPlate, CoversAllThatIsFarInsideIt) {
+  expect_covered<2>();
+  expect_covered<3>();
+}
+
 /// Lead without strength, slow enough for Hooke's law: z v = rho u (c + s u), u = speed - v.
 TEST(EmbeddedPlate, LeadOnAPlateMatchesImpedance) {
   const HookeSolid solid{30e9, 0.3, 2000};

@@ -152,6 +152,7 @@ template <int Dim> void expect_tight(const Scene<Dim>& scene, const Totals& star
   const Totals end = totals(scene.blocks[0]);
   for (const std::size_t m : {0UL, 1UL}) {
     EXPECT_NEAR(end.mass[m], start.mass[m], 1e-12 * start.mass[m] + scene.ledger.sliver_mass); // of both
+    EXPECT_LT(scene.ledger.sliver_mass, 1e-9 * start.mass[m]);
   }
   EXPECT_LT(mixed(scene.blocks[0]), 1e-6 * std::pow(cell, Dim)); // a millionth of a cell, what fractions are rounded to
 }
