@@ -2,30 +2,12 @@
 
 #include "ale/embed/outline.hpp"
 #include "ale/embed/padding.hpp"
+#include "ale/embed/points.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace ballast {
-
-namespace {
-
-template <std::size_t N> double dot(const std::array<double, N>& a, const std::array<double, N>& b) {
-  double sum = 0;
-  for (std::size_t d = 0; d < N; ++d) {
-    sum += a[d] * b[d];
-  }
-  return sum;
-}
-template <std::size_t N> std::array<double, N> minus(const std::array<double, N>& a, const std::array<double, N>& b) {
-  std::array<double, N> out{};
-  for (std::size_t d = 0; d < N; ++d) {
-    out[d] = a[d] - b[d];
-  }
-  return out;
-}
-
-} // namespace
 
 /// A layer lies to the left of its faces.
 void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least) {

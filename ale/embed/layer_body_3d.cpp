@@ -1,6 +1,7 @@
 #include "ale/embed/layer_body_3d.hpp"
 
 #include "ale/embed/padding.hpp"
+#include "ale/embed/points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +11,6 @@ namespace ballast {
 namespace {
 
 using Point = std::array<double, 3>;
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Weights of a triangle's corners at its point nearest to p, by the regions of C. Ericson, Real-Time Collision Detection (2005), 5.1.5.
 Point nearest_on_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {

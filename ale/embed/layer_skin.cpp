@@ -1,6 +1,7 @@
 #include "ale/embed/layer_skin.hpp"
 
 #include "ale/embed/padding.hpp"
+#include "ale/embed/points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +16,6 @@ using Point = std::array<double, 3>;
 constexpr double apart = std::numeric_limits<double>::infinity();
 constexpr int cuts = 4; ///< of a quadrilateral that is hidden in part, along each side
 
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 struct Column {
   int i, j;

@@ -3,6 +3,8 @@
 // A tetrahedron's open part is its volume times a share that only levels know: with one open corner, product a / (a - l) over the other three.
 #include "ale/embed/open_part.hpp"
 
+#include "ale/embed/points.hpp"
+
 #include <algorithm>
 
 namespace ballast {
@@ -10,10 +12,6 @@ namespace ballast {
 namespace {
 
 using Point = std::array<double, 3>;
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Open share of a tetrahedron, and its derivatives to the levels if asked for.
 using Four = std::array<double, 4>;
