@@ -340,7 +340,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
     }
     // Where a body's shape jumps (a face folds, a foot goes elsewhere) what is there neither stretches nor is crushed with it: more room
     // becomes void in the next step, less is taken bit by bit, and what a body would bury waits for the remap to hand it on.
-    const double gap = b.materials.back().store.row(field::fraction, r)[i], held = (1 - gap) * old;
+    const double gap = std::as_const(b).materials.back().store.row(field::fraction, r)[i], held = (1 - gap) * old; // there may be no void near
     const int kind = e.kind_of(g, r, i);
     const bool alone = kind >= 0 && is_sliver(e, b, r, i) && e.cut[static_cast<std::size_t>(kind)].root < 0; // no one's material flows after it
     const double moved = kind >= 0 ? 2 * (e.force[static_cast<std::size_t>(kind)].half.volume - e.cut[static_cast<std::size_t>(kind)].open) : 0.0;
