@@ -1,18 +1,13 @@
-// Sums over coordinates, private to ale/embed.
+// Points and vectors, private to ale/embed.
 #pragma once
+
+#include "ale/layers/contact_vector.hpp"
 
 #include <array>
 #include <cstddef>
 
 namespace ballast {
 
-template <std::size_t N> double dot(const std::array<double, N>& a, const std::array<double, N>& b) {
-  double sum = 0;
-  for (std::size_t d = 0; d < N; ++d) {
-    sum += a[d] * b[d];
-  }
-  return sum;
-}
 template <std::size_t N> std::array<double, N> minus(const std::array<double, N>& a, const std::array<double, N>& b) {
   std::array<double, N> out{};
   for (std::size_t d = 0; d < N; ++d) {

@@ -1,4 +1,4 @@
-// The dot product that the parts of contact share.
+// The dot product that the parts of contact and of embedded bodies share.
 #pragma once
 
 #include <array>
