@@ -9,7 +9,11 @@ constexpr double through_in_edges = 1.6; ///< likewise: a body may be open on it
 template <int Dim> std::vector<LayerBody<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e) {
   std::vector<LayerBody<Dim>> out;
   for (std::size_t s = 0; s < scene.layers.size(); ++s) {
-    out.emplace_back(scene.layers[s].stack, e.alive[s], e.least_thickness[s], e.bin);
+    if constexpr (Dim == 3) {
+      out.emplace_back(scene.layers[s].stack, e.alive[s], e.least_thickness[s], e.bin, *scene.pool);
+    } else {
+      out.emplace_back(scene.layers[s].stack, e.alive[s], e.least_thickness[s], e.bin);
+    }
     out.back().set_longest_reach(reach_in_edges * e.longest_edge);
   }
   return out;
@@ -90,28 +94,35 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
   std::vector<std::vector<NodeFoot<Dim>>> found(static_cast<std::size_t>(rows)); // by row of nodes
   std::vector<std::vector<int>> unknown(static_cast<std::size_t>(rows));
   std::vector<char> holds(static_cast<std::size_t>(rows), 0);
-  const auto level_of = [&](int i, int j, int k, std::vector<NodeFoot<Dim>>& feet) {
+  using Starts = std::vector<std::array<int, 2>>; // by body: where the last node's feet are, the other side's second
+  const auto foot_of = [&](std::size_t body, const std::array<double, Dim>& x, double reach, BodyFoot<Dim>& f, int side, int& start) {
+    if constexpr (Dim == 3) {
+      return bodies[body].foot(x, reach, f, side, &start);
+    } else {
+      return bodies[body].foot(x, reach, f, side);
+    }
+  };
+  const auto near = [&](double low, double high, double reach) {
+    return std::any_of(bodies.begin(), bodies.end(), [&](const LayerBody<Dim>& body) { return body.near(low, high, reach); });
+  };
+  const auto level_of = [&](int i, int j, int k, std::vector<NodeFoot<Dim>>& feet, Starts& starts) {
     const int r = g.node_row(j, k);
     std::array<double, Dim> x{};
     for (std::size_t d = 0; d < Dim; ++d) {
       x[d] = position[d].row(r)[i];
     }
-    bool near = false;
-    for (const LayerBody<Dim>& body : bodies) {
-      near = near || body.near(x, longest);
-    }
-    if (!near) {
-      return;
-    }
-    const double edge = edges_at<Dim>(g, position, i, j, k)[0], reach = reach_in_edges * edge;
     std::array<double, Dim> box = extents_at<Dim>(g, position, i, j, k);
     for (double& b : box) {
       b *= reach_in_edges;
     }
+    if (!near(x[Dim - 1], x[Dim - 1], box[Dim - 1])) { // cells may be much longer along the layers than across
+      return;
+    }
+    const double edge = edges_at<Dim>(g, position, i, j, k)[0], reach = reach_in_edges * edge;
     NodeFoot<Dim> best{{}, -1, r, i, -1, false, {}, {}};
     for (std::size_t s = 0; s < bodies.size(); ++s) {
       BodyFoot<Dim> f;
-      if (bodies[s].may_touch(x, box) && bodies[s].foot(x, reach, f) && (best.stack < 0 || f.level < best.foot.level)) {
+      if (bodies[s].may_touch(x, box) && foot_of(s, x, reach, f, -1, starts[s][0]) && (best.stack < 0 || f.level < best.foot.level)) {
         best.foot = f;
         best.stack = static_cast<int>(s);
       }
@@ -123,7 +134,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       feet.push_back(best);
       BodyFoot<Dim> far;
       const auto body = static_cast<std::size_t>(best.stack);
-      if (!(level > 0) && best.foot.side < 2 && bodies[body].foot(x, through_in_edges * edge, far, 1 - best.foot.side)) {
+      if (!(level > 0) && best.foot.side < 2 && foot_of(body, x, through_in_edges * edge, far, 1 - best.foot.side, starts[body][1])) {
         feet.back().other = static_cast<int>(feet.size());
         feet.push_back({far, best.stack, r, i, -1, false, {}, {}});
       }
@@ -132,10 +143,16 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
     level = reach;
     unknown[static_cast<std::size_t>(j + k * (g.cells[1] + 1))].push_back(i);
   };
-  parallel_ranges(pool, rows, [&](int begin, int end, int) {
-    for (int row = begin; row < end; ++row) {
+  pool.run([&](int t) { // in turn: rows near bodies lie together
+    for (int row = t; row < rows; row += pool.size()) {
+      const double* across = position[Dim - 1].row(g.node_row(row % (g.cells[1] + 1), row / (g.cells[1] + 1)));
+      const auto ends = std::minmax_element(across, across + g.cells[0] + 1);
+      if (!near(*ends.first, *ends.second, longest)) {
+        continue;
+      }
+      Starts starts(bodies.size(), {-1, -1});
       for (int i = 0; i <= g.cells[0]; ++i) {
-        level_of(i, row % (g.cells[1] + 1), row / (g.cells[1] + 1), found[static_cast<std::size_t>(row)]);
+        level_of(i, row % (g.cells[1] + 1), row / (g.cells[1] + 1), found[static_cast<std::size_t>(row)], starts);
       }
     }
   });
@@ -209,31 +226,41 @@ LevelCell<Dim> level_cell(const Grid& g, const std::array<RowField, Dim>& positi
 }
 
 template <int Dim>
-void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut) {
+void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, ThreadPool& pool, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut) {
   const Grid& g = b.grid;
   kind.assign(static_cast<std::size_t>(g.cell_pitch()) * static_cast<std::size_t>(g.cell_rows()), open_cell);
-  cut.clear();
-  for_cells_beside<Dim>(g, levels.rows, [&](int i, int j, int k) {
+  const RowsBeside rows = rows_beside<Dim>(g, levels.rows);
+  std::vector<std::vector<CutCell<Dim>>> found(static_cast<std::size_t>(rows.count()));
+  const auto look = [&](int i, int j, int k, std::vector<CutCell<Dim>>& here) {
     const int corners = open_corners<Dim>(g, levels, i, j, k);
     if (corners == 1 << Dim) {
       return;
     }
     int& what = kind[static_cast<std::size_t>(g.cell_row(j, k) * g.cell_pitch() + i + g.ghost[0])];
+    what = covered_cell;
     if (corners == 0) {
-      what = covered_cell;
       return;
     }
     std::array<int, 1 << Dim> feet{};
     const LevelCell<Dim> c = level_cell<Dim>(g, position, levels, {i, j, k}, &feet);
     const double whole = whole_volume<Dim>(b, position, i, j, k);
     const double open = open_volume(c, b.axisymmetric);
-    if (!(open > least_open * whole)) {
-      what = covered_cell;
-      return;
+    if (open > least_open * whole) {
+      here.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false, -1, {}, 1, feet, open});
     }
-    what = static_cast<int>(cut.size());
-    cut.push_back({{i, j, k}, g.cell_row(j, k), whole, edges_at<Dim>(g, position, i, j, k)[1], 0, false, -1, {}, 1, feet, open});
+  };
+  parallel_rows(pool, rows, [&](int n, int j, int k) {
+    for (int i = 0; i < g.cells[0]; ++i) {
+      look(i, j, k, found[static_cast<std::size_t>(n)]);
+    }
   });
+  cut.clear();
+  for (const std::vector<CutCell<Dim>>& here : found) {
+    for (const CutCell<Dim>& c : here) {
+      kind[static_cast<std::size_t>(c.row * g.cell_pitch() + c.cell[0] + g.ghost[0])] = static_cast<int>(cut.size());
+      cut.push_back(c);
+    }
+  }
 }
 
 template <int Dim> double face_opening(const Grid& g, const Levels<Dim>& levels, int axis, const std::array<int, 3>& above) {
@@ -252,7 +279,7 @@ template <int Dim> double face_opening(const Grid& g, const Levels<Dim>& levels,
   template LevelCell<D> level_cell<D>(const Grid&, const std::array<RowField, D>&, const Levels<D>&, const std::array<int, 3>&, std::array<int, 1 << D>*); \
   template int open_side<D>(const Grid&, const Levels<D>&, std::span<const std::array<int, 3>>); \
   template double level_on<D>(const Grid&, const Levels<D>&, const std::array<int, 3>&, int); \
-  template void find_cells<D>(const Block<D>&, const std::array<RowField, D>&, const Levels<D>&, std::vector<int>&, std::vector<CutCell<D>>&); \
+  template void find_cells<D>(const Block<D>&, const std::array<RowField, D>&, const Levels<D>&, ThreadPool&, std::vector<int>&, std::vector<CutCell<D>>&); \
   template double face_opening<D>(const Grid&, const Levels<D>&, int, const std::array<int, 3>&);
 BALLAST_INSTANTIATE(2)
 BALLAST_INSTANTIATE(3)

@@ -161,8 +161,9 @@ inline constexpr double sliver_share = 0.5;
 /// Of the room that a cell's materials fill: what a body may take of it in a step beyond its motion, where its shape jumps.
 inline constexpr double most_squeeze = 0.002;
 
-/// Kinds and cut cells from levels.
-template <int Dim> void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut);
+/// Kinds and cut cells from levels. The same for any pool.
+template <int Dim>
+void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, ThreadPool& pool, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut);
 
 /// What bodies must have where they are now not to slip through cells of the mesh that remaps lead to.
 template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<Dim>& e);
@@ -180,7 +181,7 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e);
 template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e);
 
 /// Strain rates and lengths of cut cells as of whole ones, for the viscosity of their neighbours; after the block's rates.
-template <int Dim> void embedded_rates(const Embedding<Dim>& e, Block<Dim>& b);
+template <int Dim> void embedded_rates(const Embedding<Dim>& e, Block<Dim>& b, ThreadPool& pool);
 
 /// Is cell i of cell row r cut and open by less than a sliver's share?
 template <int Dim> bool is_sliver(const Embedding<Dim>& e, const Block<Dim>& b, int r, int i) {

@@ -1,4 +1,4 @@
-// Walking a mesh beside bodies, private to ale/embedding*.
+// Walking a mesh beside bodies, private to ale/.
 #pragma once
 
 #include "ale/embedding.hpp"
@@ -83,15 +83,34 @@ inline Span both_rows(const Span& a, const Span& b) {
   return a.empty() ? b : b.empty() ? a : Span{std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
+/// Rows (j, k) of the cells beside some rows of nodes along the last axis.
+struct RowsBeside {
+  Span lines, planes;
+  int count() const { return lines.count() * planes.count(); }
+  std::array<int, 2> at(int n) const { return {lines.begin + n % lines.count(), planes.begin + n / lines.count()}; }
+};
+template <int Dim> RowsBeside rows_beside(const Grid& g, const Span& rows) {
+  const Span beside = rows.empty() ? Span{0, 0} : Span{std::max(0, rows.begin - 1), std::min(g.cells[Dim - 1], rows.end)};
+  return Dim == 3 ? RowsBeside{{0, g.cells[1]}, beside} : RowsBeside{beside, {0, 1}};
+}
+
+/// Calls body(n, j, k) for those rows on all threads, which take turns: n counts them. It may change its own row only.
+template <class Visit> void parallel_rows(ThreadPool& pool, const RowsBeside& rows, Visit&& body) {
+  pool.run([&](int t) {
+    for (int n = t; n < rows.count(); n += pool.size()) {
+      const auto [j, k] = rows.at(n);
+      body(n, j, k);
+    }
+  });
+}
+
 /// Cells beside these rows of nodes along the last axis.
 template <int Dim, class Visit> void for_cells_beside(const Grid& g, const Span& rows, Visit&& body) {
-  const Span beside = rows.empty() ? Span{0, 0} : Span{std::max(0, rows.begin - 1), std::min(g.cells[Dim - 1], rows.end)};
-  const Span planes = Dim == 3 ? beside : Span{0, 1}, lines = Dim == 3 ? Span{0, g.cells[1]} : beside;
-  for (int k = planes.begin; k < planes.end; ++k) {
-    for (int j = lines.begin; j < lines.end; ++j) {
-      for (int i = 0; i < g.cells[0]; ++i) {
-        body(i, j, k);
-      }
+  const RowsBeside beside = rows_beside<Dim>(g, rows);
+  for (int n = 0; n < beside.count(); ++n) {
+    const auto [j, k] = beside.at(n);
+    for (int i = 0; i < g.cells[0]; ++i) {
+      body(i, j, k);
     }
   }
 }
@@ -107,9 +126,10 @@ template <int Dim> int open_corners(const Grid& g, const Levels<Dim>& levels, in
 }
 
 template <int Dim> double whole_volume(const Block<Dim>& b, const std::array<RowField, Dim>& x, int i, int j, int k) {
-  std::vector<double> v(static_cast<std::size_t>(i + 1));
+  thread_local std::vector<double> v;
+  v.resize(static_cast<std::size_t>(b.grid.cells[0]));
   cell_volumes(b, x, j, k, {i, i + 1}, v.data());
-  return v.back();
+  return v[static_cast<std::size_t>(i)];
 }
 
 /// Velocity component (m/s) of the mass at a node: where what slides meets the rest the node need not move so (remap/mesh.hpp, Sliding).

@@ -159,10 +159,12 @@ template <int Dim> static CutForce<Dim> cut_force(const Scene<Dim>& scene, const
 }
 
 template <int Dim> void cut_forces(const Scene<Dim>& scene, Embedding<Dim>& e, double dt) {
-  e.force.clear();
-  for (const CutCell<Dim>& c : e.cut) {
-    e.force.push_back(cut_force(scene, e, c, dt));
-  }
+  e.force.resize(e.cut.size());
+  parallel_ranges(*scene.pool, static_cast<int>(e.cut.size()), [&](int begin, int end, int) {
+    for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) {
+      e.force[n] = cut_force(scene, e, e.cut[n], dt);
+    }
+  });
 }
 
 template <int Dim> void override_forces(const Scene<Dim>& scene, const Embedding<Dim>& e, int j, int k, const CornerRows<Dim>& out) {

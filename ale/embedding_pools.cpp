@@ -15,7 +15,7 @@ constexpr double largest_stretch = 0.98; ///< of a cell's room: less than that i
 template <int Dim> void EmbeddedRemap<Dim>::pool() {
   path_[0] = &b_.position;
   levels_[0] = std::move(e_.next);
-  find_cells<Dim>(b_, *path_[0], levels_[0], lag_.kind, lag_.cut);
+  find_cells<Dim>(b_, *path_[0], levels_[0], *scene_.pool, lag_.kind, lag_.cut);
   target_ = lag_;
   find_special();
   gather();

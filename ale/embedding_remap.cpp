@@ -52,8 +52,8 @@ template <int Dim> void EmbeddedRemap<Dim>::find_levels_on_the_way() {
     path_[next] = next < Dim ? &between_[next] : &b_.target;
     levels_[next] = find_levels<Dim>(g_, *path_[next], bodies, *scene_.pool);
   }
-  find_cells<Dim>(b_, *path_[0], levels_[0], lag_.kind, lag_.cut);
-  find_cells<Dim>(b_, *path_[Dim], levels_[Dim], target_.kind, target_.cut);
+  find_cells<Dim>(b_, *path_[0], levels_[0], *scene_.pool, lag_.kind, lag_.cut);
+  find_cells<Dim>(b_, *path_[Dim], levels_[Dim], *scene_.pool, target_.kind, target_.cut);
   target_.at = Dim;
 }
 
@@ -353,8 +353,8 @@ template <int Dim> void pool_embedded(Scene<Dim>& scene, Embedding<Dim>& e, Bloc
   EmbeddedRemap<Dim>(scene, e, b, nullptr, {}, 0).pool();
 }
 
-template <int Dim> void restore_open_volumes(Embedding<Dim>& e, Block<Dim>& b) {
-  find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+template <int Dim> void restore_open_volumes(Embedding<Dim>& e, Block<Dim>& b, ThreadPool& pool) {
+  find_cells<Dim>(b, b.position, e.now, pool, e.kind, e.cut);
   e.rows = e.now.rows;
   for (const CutCell<Dim>& c : e.cut) {
     b.volume.row(c.row)[c.cell[0]] = c.open;
@@ -372,7 +372,7 @@ template void remap_embedded<2>(Scene<2>&, Embedding<2>&, Block<2>&, remap::Mesh
 template void remap_embedded<3>(Scene<3>&, Embedding<3>&, Block<3>&, remap::Mesh<3>&, const remap::Settings&, long);
 template void pool_embedded<2>(Scene<2>&, Embedding<2>&, Block<2>&);
 template void pool_embedded<3>(Scene<3>&, Embedding<3>&, Block<3>&);
-template void restore_open_volumes<2>(Embedding<2>&, Block<2>&);
-template void restore_open_volumes<3>(Embedding<3>&, Block<3>&);
+template void restore_open_volumes<2>(Embedding<2>&, Block<2>&, ThreadPool&);
+template void restore_open_volumes<3>(Embedding<3>&, Block<3>&, ThreadPool&);
 
 } // namespace ballast

@@ -17,6 +17,6 @@ template <int Dim> void pool_embedded(Scene<Dim>& scene, Embedding<Dim>& e, Bloc
 template <int Dim> void settle_jumps(Block<Dim>& block, ThreadPool& pool);
 
 /// After the sweeps: levels and cut cells on the target mesh, whose volumes are open parts.
-template <int Dim> void restore_open_volumes(Embedding<Dim>& e, Block<Dim>& block);
+template <int Dim> void restore_open_volumes(Embedding<Dim>& e, Block<Dim>& block, ThreadPool& pool);
 
 } // namespace ballast

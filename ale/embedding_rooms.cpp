@@ -213,7 +213,7 @@ template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e) {
   find_least_thickness(scene, e);
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), *scene.pool);
-  find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+  find_cells<Dim>(b, b.position, e.now, *scene.pool, e.kind, e.cut);
   e.rows = e.now.rows;
 }
 
@@ -268,7 +268,7 @@ template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
     find_least_thickness(scene, e);
     e.now = find_levels<Dim>(g, b.position, bodies_of(scene, e), *scene.pool);
   }
-  find_cells<Dim>(b, b.position, e.now, e.kind, e.cut);
+  find_cells<Dim>(b, b.position, e.now, *scene.pool, e.kind, e.cut);
   const Span were = std::exchange(e.rows, e.now.rows);
   bool changed = take_room(b, e);
   const auto free_cell = [&](int i, int j, int k) {
@@ -326,7 +326,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
   find_least_thickness(scene, e);
   e.next = find_levels<Dim>(g, b.next_position, bodies_of(scene, e), *scene.pool);
   const Levels<Dim>& next = e.next;
-  for_cells_beside<Dim>(g, both_rows(e.rows, next.rows), [&](int i, int j, int k) {
+  const auto find_volume = [&](int i, int j, int k) {
     const int r = g.cell_row(j, k);
     if (open_corners<Dim>(g, next, i, j, k) == 1 << Dim && e.kind_of(g, r, i) == open_cell) {
       return;
@@ -350,6 +350,11 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
     volume = open > 0 ? std::clamp(open, least, std::max({most, least, gap > 0 ? open : 0.0})) : old;
     if (kind >= 0 && is_sliver(e, b, r, i)) { // as a pure one is; a mixed one's follows
       e.cut[static_cast<std::size_t>(kind)].scaled = volume / old;
+    }
+  };
+  parallel_rows(*scene.pool, rows_beside<Dim>(g, both_rows(e.rows, next.rows)), [&](int, int j, int k) {
+    for (int i = 0; i < g.cells[0]; ++i) {
+      find_volume(i, j, k);
     }
   });
 }

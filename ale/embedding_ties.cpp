@@ -31,10 +31,15 @@ template <int Dim> bool keeps_off(const Block<Dim>& b, const CutCell<Dim>& c) {
 }
 
 template <int Dim> void find_touching(Scene<Dim>& scene, Embedding<Dim>& e, const Block<Dim>& b) {
-  for (CutCell<Dim>& c : e.cut) {
+  const auto find = [&](CutCell<Dim>& c) {
     const int i = c.cell[0];
     c.touches = has_mass(b, c.row, i) && !keeps_off(b, c) && (b.pressure.row(c.row)[i] + b.reference_pressure > 0 || closing_rate(scene, e, c) > 0);
-  }
+  };
+  parallel_ranges(*scene.pool, static_cast<int>(e.cut.size()), [&](int begin, int end, int) {
+    for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) {
+      find(e.cut[n]);
+    }
+  });
 }
 
 /// A node is tied if it lies in the body or close to it and something there touches the body; an open one only if nothing around
@@ -114,19 +119,25 @@ template <int Dim> std::array<int, 3> node_of(const Grid& g, int row, int index)
 
 /// The stack's nodes that carry a foot.
 template <int Dim> void collect_nodes(Scene<Dim>& scene, const Embedding<Dim>& e) {
-  std::vector<std::vector<std::size_t>> nodes(scene.layers.size());
+  std::vector<std::vector<char>> carries(scene.layers.size());
+  for (std::size_t s = 0; s < carries.size(); ++s) {
+    carries[s].assign(scene.layers[s].stack.node_count(), 0);
+  }
   for (const NodeFoot<Dim>& f : e.now.feet) {
     for (const std::size_t n : f.foot.node) {
-      nodes[static_cast<std::size_t>(f.stack)].push_back(n);
+      carries[static_cast<std::size_t>(f.stack)][n] = 1;
     }
   }
-  for (std::size_t s = 0; s < nodes.size(); ++s) {
-    std::sort(nodes[s].begin(), nodes[s].end());
-    nodes[s].erase(std::unique(nodes[s].begin(), nodes[s].end()), nodes[s].end());
+  for (std::size_t s = 0; s < carries.size(); ++s) {
     LayerLoad<Dim>& load = scene.layers[s].load;
-    load.node = nodes[s];
-    load.force.assign(nodes[s].size(), LayerLoad<Dim>::Vector::Zero());
-    load.added.assign(nodes[s].size(), LayerLoad<Dim>::Matrix::Zero());
+    load.node.clear();
+    for (std::size_t n = 0; n < carries[s].size(); ++n) {
+      if (carries[s][n] != 0) {
+        load.node.push_back(n);
+      }
+    }
+    load.force.assign(load.node.size(), LayerLoad<Dim>::Vector::Zero());
+    load.added.assign(load.node.size(), LayerLoad<Dim>::Matrix::Zero());
     load.own.clear();
   }
 }
@@ -252,13 +263,17 @@ template <int Dim> void tie_nodes(Scene<Dim>& scene, Embedding<Dim>& e) {
     e.kinetic.push_back(kinetic_of(l.stack, l.load));
     impulse.emplace_back(l.load.node.size(), LayerLoad<Dim>::Vector::Zero());
   }
-  for (NodeFoot<Dim>& f : e.now.feet) {
-    if (!is_own(e, b.grid, f)) {
-      continue;
+  parallel_ranges(*scene.pool, static_cast<int>(e.now.feet.size()), [&](int begin, int end, int) {
+    for (auto at = static_cast<std::size_t>(begin); at < static_cast<std::size_t>(end); ++at) {
+      NodeFoot<Dim>& f = e.now.feet[at];
+      if (is_own(e, b.grid, f)) {
+        const std::array<int, 3> node = node_of<Dim>(b.grid, f.row, f.index);
+        f.tied = find_tie(b, node, f) && is_tied(e, b, f, node);
+      }
     }
-    const std::array<int, 3> node = node_of<Dim>(b.grid, f.row, f.index);
+  });
+  for (const NodeFoot<Dim>& f : e.now.feet) {
     const double mass = b.node_mass.row(f.row)[f.index];
-    f.tied = find_tie(b, node, f) && is_tied(e, b, f, node);
     if (!f.tied || !(mass > 0)) {
       continue;
     }

@@ -1,6 +1,6 @@
 // The Lagrangian step: predict, corner forces, accelerate, move, then work, closure, strength, state.
 #include "ale/absorbing.hpp"
-#include "ale/embedding.hpp"
+#include "ale/embedding_cells.hpp"
 #include "ale/lagrange_parts.hpp"
 #include "ale/layer_coupling.hpp"
 #include "ale/outflow.hpp"
@@ -268,6 +268,7 @@ struct WorstCell {
 template <int Dim> WorstCell move_cells(Scene<Dim>& scene, Block<Dim>& b) {
   const Grid& g = b.grid;
   std::vector<WorstCell> worst(static_cast<std::size_t>(g.slabs()));
+  const bool embedded = embedding_of(scene, b) != nullptr;
   parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
@@ -279,7 +280,8 @@ template <int Dim> WorstCell move_cells(Scene<Dim>& scene, Block<Dim>& b) {
         WorstCell& w = worst[static_cast<std::size_t>(s)];
         for (int i = cells.begin; i < cells.end; ++i) {
           if (!(next[i] >= w.ratio * v[i]) && !std::isnan(w.ratio)) {
-            w = {next[i] / v[i], {i, j, k}};
+            const double now = embedded ? std::min(v[i], whole_volume<Dim>(b, b.position, i, j, k)) : v[i]; // what a body has buried may fill more
+            w = next[i] >= w.ratio * now ? w : WorstCell{next[i] / now, {i, j, k}};
           }
         }
       }
@@ -323,7 +325,6 @@ template <int Dim> bool move_layers(Scene<Dim>& scene, const Clock& clock, bool 
 
 constexpr double smallest_volume_ratio = 0.2; // of one step; below it the step is retried smaller
 constexpr int most_retries = 30;
-
 } // namespace
 
 template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {

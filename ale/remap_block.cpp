@@ -244,7 +244,7 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   b.at_target = !b.motion.moves_target();
   take_target_volume(b, *scene.pool);
   if (embedded != nullptr) {
-    restore_open_volumes(*embedded, b);
+    restore_open_volumes(*embedded, b, *scene.pool);
   }
   compute_node_mass(b, *scene.pool);
   if (b.any_sliding()) {

@@ -1,5 +1,6 @@
 #include "ale/rest.hpp"
 
+#include "ale/embedding.hpp"
 #include "ale/phases.hpp"
 
 #include <algorithm>
@@ -222,14 +223,22 @@ template <int Dim> std::vector<int> count_mixed(const Block<Dim>& b, ThreadPool&
   return mixed;
 }
 
+/// Beside layers inside the mesh everything is awake: slabs around these rows of nodes.
+template <int Dim> Span beside_layers(const Scene<Dim>& scene, const Block<Dim>& b) {
+  const Embedding<Dim>* e = embedding_of(scene, b);
+  return e == nullptr || e->rows.empty() ? Span{0, 0} : Span{e->rows.begin - Awake::reach, e->rows.end + Awake::reach};
+}
+
 template <int Dim> void find_awake(const Scene<Dim>& scene, Block<Dim>& b, bool remapped) {
   const Grid& g = b.grid;
+  const Span layers = beside_layers(scene, b);
   std::vector<Span> found(static_cast<std::size_t>(g.cell_rows()));
   parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
-        found[static_cast<std::size_t>(g.cell_row(j, k))] = restless(b, j, k, scene.numerics.spall);
+        const bool beside = s >= layers.begin && s < layers.end;
+        found[static_cast<std::size_t>(g.cell_row(j, k))] = beside ? Span{0, g.cells[0]} : restless(b, j, k, scene.numerics.spall);
       }
     }
   });
@@ -290,7 +299,7 @@ template <int Dim> void hold_still(Block<Dim>& b, ThreadPool& pool, Ledger& ledg
 
 template <int Dim> void follow_rest(Scene<Dim>& scene, Block<Dim>& b, bool remapped) {
   b.awake_steps += b.awake.share();
-  if (scene.numerics.sleeping && scene.layers.empty() && may_sleep(b)) {
+  if (scene.numerics.sleeping && (scene.layers.empty() || embedding_of(scene, b) != nullptr) && may_sleep(b)) {
     find_awake(scene, b, remapped);
   }
   if (scene.pool->size() > 1 && b.materials.size() > 1) {

@@ -45,9 +45,7 @@ template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
       }
     }
     new_state(scene, block, due);
-    if (embedding_of(scene, block) == nullptr) {
-      follow_rest(scene, block, due);
-    }
+    follow_rest(scene, block, due);
   }
   clock.advance();
 }

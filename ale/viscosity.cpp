@@ -274,7 +274,7 @@ template <int Dim> DtLimit stable_dt(Scene<Dim>& scene) {
     });
     Embedding<Dim>* embedded = embedding_of(scene, b);
     if (embedded != nullptr) {
-      embedded_rates(*embedded, b);
+      embedded_rates(*embedded, b, *scene.pool);
     }
     for (auto& f : b.strain_rate) {
       exchange_cells(g, f, &b.awake);

@@ -199,7 +199,8 @@ bool LayerBody<2>::foot(const std::array<double, 2>& point, double reach, BodyFo
     });
     return best.square <= within * within ? best : OnFace{};
   };
-  OnFace at = nearest(reach);
+  OnFace at = nearest(std::min(reach, bin_)); // few bins
+  at = at.face < 0 ? nearest(reach) : at;
   const double far = reach + thickest_;
   if (at.face < 0 && any_near(point, far, padded, [](int) { return true; })) { // farther, but made thicker
     at = nearest(far);
@@ -226,9 +227,9 @@ bool LayerBody<2>::foot(const std::array<double, 2>& point, double reach, BodyFo
   return std::abs(out.level) <= reach;
 }
 
-bool LayerBody<2>::near(const std::array<double, 2>& p, double reach) const {
+bool LayerBody<2>::near(double low, double high, double reach) const {
   const double far = reach + thickest_;
-  return !faces_.empty() && p[1] > low_[1] - far && p[1] < high_[1] + far; // along the layers faces may go on
+  return !faces_.empty() && high > low_[1] - far && low < high_[1] + far;
 }
 
 } // namespace ballast

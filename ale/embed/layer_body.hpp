@@ -41,8 +41,8 @@ public:
   /// May a face be in the box around a point, `box` (m) to either side along each axis? For skipping points that are far.
   bool may_touch(const std::array<double, 2>&, const std::array<double, 2>&) const { return true; }
 
-  /// Is a point within `reach` of the box around the faces? Beyond ends that go on, too.
-  bool near(const std::array<double, 2>& point, double reach) const;
+  /// Is anything between two places across the layers (m) within `reach` of the faces, wherever along them?
+  bool near(double low, double high, double reach) const;
 
   /// m: the farthest that feet are asked for.
   void set_longest_reach(double reach) { longest_reach_ = reach; }

@@ -53,73 +53,93 @@ std::array<double, 2> corner_place(const SkinPatch& p, std::size_t corner) { ret
 
 } // namespace
 
-LayerBody<3>::LayerBody(const LayerStack<3>& s, const std::vector<char>& alive, const std::vector<double>& least, double bin) : skin_(find_skin(s, alive, least)) {
+LayerBody<3>::LayerBody(const LayerStack<3>& s, const std::vector<char>& alive, const std::vector<double>& least, double bin, ThreadPool& pool)
+    : skin_(find_skin(s, alive, least, pool)), patches_(skin_.patches.size()) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     constexpr double none = std::numeric_limits<double>::infinity();
     hold_low_[axis] = s.edge[axis][0] == LayerEdge::free ? -none : s.lines[axis].front();
     hold_high_[axis] = s.edge[axis][1] == LayerEdge::free ? none : s.lines[axis].back();
+    const std::vector<double>& lines = s.lines[axis];
+    std::vector<double> ends = {lines.front()};
+    for (const double at : lines) {
+      if (at - ends.back() >= bin && at < lines.back()) {
+        ends.push_back(at);
+      }
+    }
+    ends.push_back(lines.back());
+    ends_[axis] = std::move(ends);
   }
-  for (const SkinPatch& p : skin_.patches) {
-    Patch out{};
-    for (std::size_t c = 0; c < 4; ++c) {
-      const auto [u, v] = corner_place(p, c);
-      const auto w = corner_weights(u, v);
-      for (std::size_t q = 0; q < 4; ++q) {
-        const SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(p.vertex[q])];
-        out.offset = std::max(out.offset, vertex.offset);
-        for (std::size_t d = 0; d < 3; ++d) {
-          out.x[c][d] += w[q] * vertex.x[d];
-        }
-      }
-      for (std::size_t d = 0; d < 3; ++d) {
-        out.x[4][d] += 0.25 * out.x[c][d];
-      }
+  parallel_ranges(pool, static_cast<int>(patches_.size()), [&](int begin, int end, int) {
+    for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
+      patches_[p] = measure(skin_.patches[p]);
     }
-    for (std::size_t d = 0; d < 3; ++d) {
-      const auto ends = std::minmax({out.x[0][d], out.x[1][d], out.x[2][d], out.x[3][d]});
-      out.low[d] = ends.first;
-      out.high[d] = ends.second;
-      out.size = std::max(out.size, out.high[d] - out.low[d]);
-    }
-    thickest_ = std::max(thickest_, out.offset);
-    patches_.push_back(out);
+  });
+  for (const Patch& p : patches_) {
+    thickest_ = std::max(thickest_, p.offset);
   }
   if (!patches_.empty()) {
-    fill_columns(bin);
+    fill_columns();
   }
 }
 
-void LayerBody<3>::fill_columns(double bin) {
-  low_ = high_ = patches_.front().x[0];
-  for (const Patch& p : patches_) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      low_[d] = std::min(low_[d], p.low[d]);
-      high_[d] = std::max(high_[d], p.high[d]);
-    }
-  }
-  bin_ = bin;
-  constexpr double most = 512; // columns along an axis
-  for (std::size_t d = 0; d < 2; ++d) {
-    bin_ = std::max(bin_, (high_[d] - low_[d]) / most);
-  }
-  for (std::size_t d = 0; d < 2; ++d) {
-    columns_[d] = static_cast<int>((high_[d] - low_[d]) / bin_) + 1;
-  }
-  const auto count = static_cast<std::size_t>(columns_[0]) * static_cast<std::size_t>(columns_[1]);
-  const auto for_columns = [&](const Patch& p, auto&& body) {
-    std::array<int, 2> from{}, to{};
-    for (std::size_t d = 0; d < 2; ++d) {
-      from[d] = static_cast<int>((p.low[d] - low_[d]) / bin_);
-      to[d] = static_cast<int>((p.high[d] - low_[d]) / bin_);
-    }
-    for (int y = from[1]; y <= to[1]; ++y) {
-      for (int x = from[0]; x <= to[0]; ++x) {
-        body(static_cast<std::size_t>(y * columns_[0] + x));
+LayerBody<3>::Patch LayerBody<3>::measure(const SkinPatch& p) const {
+  Patch out{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    const auto [u, v] = corner_place(p, c);
+    const auto w = corner_weights(u, v);
+    for (std::size_t q = 0; q < 4; ++q) {
+      const SkinVertex& vertex = skin_.vertices[static_cast<std::size_t>(p.vertex[q])];
+      out.offset = std::max(out.offset, vertex.offset);
+      for (std::size_t d = 0; d < 3; ++d) {
+        out.x[c][d] += w[q] * vertex.x[d];
       }
     }
-  };
+    for (std::size_t d = 0; d < 3; ++d) {
+      out.x[4][d] += 0.25 * out.x[c][d];
+    }
+  }
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto ends = std::minmax({out.x[0][d], out.x[1][d], out.x[2][d], out.x[3][d]});
+    out.low[d] = ends.first;
+    out.high[d] = ends.second;
+    out.size = std::max(out.size, out.high[d] - out.low[d]);
+  }
+  return out;
+}
+
+std::size_t LayerBody<3>::column(std::size_t axis, double x) const {
+  const std::vector<double>& ends = ends_[axis];
+  const auto above = std::upper_bound(ends.begin() + 1, ends.end() - 1, x) - ends.begin();
+  return static_cast<std::size_t>(above - 1);
+}
+
+std::array<std::array<std::size_t, 2>, 2> LayerBody<3>::columns(const Point& point, std::array<double, 2> reach) const {
+  std::array<std::array<std::size_t, 2>, 2> out;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double far = reach[axis] + overhang_[axis];
+    out[axis] = {column(axis, point[axis] - far), column(axis, point[axis] + far)};
+  }
+  return out;
+}
+
+void LayerBody<3>::fill_columns() {
+  low_[2] = high_[2] = patches_.front().x[0][2];
+  for (const Patch& p : patches_) {
+    low_[2] = std::min(low_[2], p.low[2]);
+    high_[2] = std::max(high_[2], p.high[2]);
+  }
+  const std::size_t across = ends_[0].size() - 1, count = across * (ends_[1].size() - 1);
+  std::vector<std::size_t> own(patches_.size()); // the column of a patch's middle
+  for (std::size_t p = 0; p < own.size(); ++p) {
+    const std::array<std::size_t, 2> at = {column(0, patches_[p].x[4][0]), column(1, patches_[p].x[4][1])};
+    own[p] = at[1] * across + at[0];
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      overhang_[axis] = at[axis] > 0 ? std::max(overhang_[axis], ends_[axis][at[axis]] - patches_[p].low[axis]) : overhang_[axis];
+      overhang_[axis] = at[axis] + 2 < ends_[axis].size() ? std::max(overhang_[axis], patches_[p].high[axis] - ends_[axis][at[axis] + 1]) : overhang_[axis];
+    }
+  }
   const auto for_kinds = [&](std::size_t p, auto&& body) {
-    body(skin_.patches[p].hidden ? hidden : surface);
+    body(skin_.patches[p].hidden ? hidden : static_cast<Kind>(skin_.patches[p].side));
     if (!skin_.patches[p].hidden && patches_[p].offset > 0) {
       body(padded);
     }
@@ -127,11 +147,10 @@ void LayerBody<3>::fill_columns(double bin) {
   constexpr double none = std::numeric_limits<double>::infinity();
   for (Columns& c : binned_) {
     c.first.assign(count + 1, 0);
-    c.low.assign(count, none);
-    c.high.assign(count, -none);
+    c.box.assign(count, {{none, none, none}, {-none, -none, -none}});
   }
   for (std::size_t p = 0; p < patches_.size(); ++p) {
-    for_kinds(p, [&](Kind kind) { for_columns(patches_[p], [&](std::size_t at) { ++binned_[kind].first[at + 1]; }); });
+    for_kinds(p, [&](Kind kind) { ++binned_[kind].first[own[p] + 1]; });
   }
   std::array<std::vector<int>, kinds> next;
   for (std::size_t kind = 0; kind < kinds; ++kind) {
@@ -145,12 +164,13 @@ void LayerBody<3>::fill_columns(double bin) {
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     for_kinds(p, [&](Kind kind) {
       Columns& c = binned_[kind];
-      c.offset = std::max(c.offset, patches_[p].offset);
-      for_columns(patches_[p], [&](std::size_t at) {
-        c.patch[static_cast<std::size_t>(next[kind][at]++)] = static_cast<int>(p);
-        c.low[at] = std::min(c.low[at], patches_[p].low[2]);
-        c.high[at] = std::max(c.high[at], patches_[p].high[2]);
-      });
+      const Patch& patch = patches_[p];
+      c.offset = std::max(c.offset, patch.offset);
+      c.patch[static_cast<std::size_t>(next[kind][own[p]]++)] = static_cast<int>(p);
+      for (std::size_t d = 0; d < 3; ++d) {
+        c.box[own[p]].low[d] = std::min(c.box[own[p]].low[d], patch.low[d]);
+        c.box[own[p]].high[d] = std::max(c.box[own[p]].high[d], patch.high[d]);
+      }
     });
   }
 }
@@ -250,51 +270,47 @@ bool LayerBody<3>::outside_of(const OnPatch& at, const Point& point, Point& outw
 
 template <class Body> bool LayerBody<3>::any_near(const Point& point, const double& square, Kind kind, Body&& body) const {
   const Columns& c = binned_[kind];
-  std::array<int, 2> own{};
-  for (std::size_t d = 0; d < 2; ++d) {
-    own[d] = static_cast<int>(std::clamp((point[d] - low_[d]) / bin_, 0.0, columns_[d] - 1.0));
-  }
-  const auto beyond = [](double x, double low, double high) { return std::max({low - x, x - high, 0.0}); };
-  const int rings = std::max({own[0], columns_[0] - 1 - own[0], own[1], columns_[1] - 1 - own[1]});
-  for (int ring = 0; ring <= rings; ++ring) {
-    const double nearest = (ring - 1) * bin_;
-    if (ring > 1 && nearest * nearest > square) {
-      break;
+  const auto beyond = [&](const Point& low, const Point& high) {
+    double sum = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double off = std::max({low[d] - point[d], point[d] - high[d], 0.0});
+      sum += off * off;
     }
-    for (int y = std::max(0, own[1] - ring); y <= std::min(columns_[1] - 1, own[1] + ring); ++y) {
-      const bool whole_row = std::abs(y - own[1]) == ring;
-      const double dy = beyond(point[1], low_[1] + y * bin_, low_[1] + (y + 1) * bin_);
-      for (int x = own[0] - ring; x <= own[0] + ring; x += whole_row || ring == 0 ? 1 : 2 * ring) {
-        if (x < 0 || x >= columns_[0]) {
-          continue;
-        }
-        const auto at = static_cast<std::size_t>(y * columns_[0] + x);
-        const double dx = beyond(point[0], low_[0] + x * bin_, low_[0] + (x + 1) * bin_), dz = beyond(point[2], c.low[at], c.high[at]);
-        if (!(dx * dx + dy * dy + dz * dz <= square)) {
-          continue;
-        }
-        for (int q = c.first[at]; q < c.first[at + 1]; ++q) {
-          const int p = c.patch[static_cast<std::size_t>(q)];
-          const Patch& patch = patches_[static_cast<std::size_t>(p)];
-          double least = 0; // to its box
-          for (std::size_t d = 0; d < 3; ++d) {
-            const double off = beyond(point[d], patch.low[d], patch.high[d]);
-            least += off * off;
-          }
-          if (least <= square && body(p)) {
-            return true;
-          }
-        }
+    return sum;
+  };
+  const auto in_column = [&](std::size_t at) {
+    if (!(beyond(c.box[at].low, c.box[at].high) <= square)) {
+      return false;
+    }
+    for (int q = c.first[at]; q < c.first[at + 1]; ++q) {
+      const int p = c.patch[static_cast<std::size_t>(q)];
+      const Patch& patch = patches_[static_cast<std::size_t>(p)];
+      if (beyond(patch.low, patch.high) <= square && body(p)) {
+        return true;
+      }
+    }
+    return false;
+  };
+  const std::size_t across = ends_[0].size() - 1, own = column(1, point[1]) * across + column(0, point[0]);
+  if (in_column(own)) {
+    return true;
+  }
+  const double reach = std::sqrt(square);
+  const auto [x, y] = columns(point, {reach, reach});
+  for (std::size_t j = y[0]; j <= y[1]; ++j) {
+    for (std::size_t i = x[0]; i <= x[1]; ++i) {
+      if (j * across + i != own && in_column(j * across + i)) {
+        return true;
       }
     }
   }
   return false;
 }
 
-LayerBody<3>::OnPatch LayerBody<3>::nearest(const Point& point, double square, Kind kind, int side) const {
+LayerBody<3>::OnPatch LayerBody<3>::nearest(const Point& point, double square, int side, int start) const {
   OnPatch best;
-  any_near(point, square, kind, [&](int p) {
-    if (p != best.patch && (side < 0 || skin_.patches[static_cast<std::size_t>(p)].side != 1 - side)) {
+  const auto look = [&](int p) {
+    if (p != best.patch) {
       const OnPatch on = on_patch(p, point);
       if (on.square <= square && on.before(best)) {
         best = on;
@@ -302,22 +318,33 @@ LayerBody<3>::OnPatch LayerBody<3>::nearest(const Point& point, double square, K
       }
     }
     return false;
-  });
+  };
+  if (start >= 0) {
+    look(start);
+  }
+  for (const Kind kind : {lower, upper, rim}) {
+    if (side < 0 || static_cast<int>(kind) != 1 - side) {
+      any_near(point, square, kind, look);
+    }
+  }
   return best;
 }
 
-bool LayerBody<3>::foot(const Point& where, double reach, BodyFoot<3>& out, int side) const {
+bool LayerBody<3>::foot(const Point& where, double reach, BodyFoot<3>& out, int side, int* start) const {
   if (patches_.empty()) {
     return false;
   }
   const Point point = held(where);
   const double far = reach + thickest_;
-  OnPatch at = nearest(point, reach * reach, surface, side);
+  OnPatch at = nearest(point, reach * reach, side, start != nullptr ? *start : -1);
   if (at.patch < 0 && thickest_ > 0 && any_near(point, far * far, padded, [](int) { return true; })) { // farther, but made thicker
-    at = nearest(point, far * far, surface, side);
+    at = nearest(point, far * far, side);
   }
   if (at.patch < 0) {
     return false;
+  }
+  if (start != nullptr) {
+    *start = at.patch;
   }
   const bool in_front = outside_of(at, point, out.normal);
   // Nearer to what is hidden: in a layer, or in a slit that is closed. Of a given side what counts is how the point stands to that.
@@ -347,25 +374,29 @@ bool LayerBody<3>::foot(const Point& where, double reach, BodyFoot<3>& out, int 
   return std::abs(out.level) <= reach;
 }
 
-bool LayerBody<3>::near(const Point& p, double reach) const {
+bool LayerBody<3>::near(double low, double high, double reach) const {
   const double far = reach + thickest_;
-  return !patches_.empty() && p[2] > low_[2] - far && p[2] < high_[2] + far; // along the layers faces may go on
+  return !patches_.empty() && high > low_[2] - far && low < high_[2] + far;
 }
 
 bool LayerBody<3>::may_touch(const Point& where, const Point& box) const {
   const Point point = held(where);
-  std::array<int, 2> from{}, to{};
-  for (const Kind kind : {surface, padded}) {
+  const std::size_t across = ends_[0].size() - 1;
+  for (const Kind kind : {lower, upper, rim, padded}) {
     const Columns& c = binned_[kind];
     const double more = kind == padded ? c.offset : 0.0;
-    for (std::size_t d = 0; d < 2; ++d) {
-      from[d] = static_cast<int>(std::clamp((point[d] - box[d] - more - low_[d]) / bin_, 0.0, columns_[d] - 1.0));
-      to[d] = static_cast<int>(std::clamp((point[d] + box[d] + more - low_[d]) / bin_, 0.0, columns_[d] - 1.0));
+    if (c.patch.empty()) {
+      continue;
     }
-    for (int y = from[1]; y <= to[1]; ++y) {
-      for (int x = from[0]; x <= to[0]; ++x) {
-        const auto at = static_cast<std::size_t>(y * columns_[0] + x);
-        if (point[2] + box[2] + more >= c.low[at] && point[2] - box[2] - more <= c.high[at]) {
+    const auto [x, y] = columns(point, {box[0] + more, box[1] + more});
+    for (std::size_t j = y[0]; j <= y[1]; ++j) {
+      for (std::size_t i = x[0]; i <= x[1]; ++i) {
+        const Box& around = c.box[j * across + i];
+        bool touches = true;
+        for (std::size_t d = 0; d < 3; ++d) {
+          touches = touches && point[d] + box[d] + more >= around.low[d] && point[d] - box[d] - more <= around.high[d];
+        }
+        if (touches) {
           return true;
         }
       }

@@ -10,11 +10,12 @@ namespace ballast {
 /// As in a plane (layer_body.hpp). Past an edge that is held, or a plane of symmetry, faces go on straight across it.
 template <> class LayerBody<3> {
 public:
-  LayerBody(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin);
+  LayerBody(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin, ThreadPool& pool);
 
-  bool foot(const std::array<double, 3>& point, double reach, BodyFoot<3>& out, int side = -1) const;
+  /// `start`: a patch to look at first (a neighbour's foot, of the same `side`), or -1; becomes the foot's. It changes nothing but the time taken.
+  bool foot(const std::array<double, 3>& point, double reach, BodyFoot<3>& out, int side = -1, int* start = nullptr) const;
   bool may_touch(const std::array<double, 3>& point, const std::array<double, 3>& box) const;
-  bool near(const std::array<double, 3>& point, double reach) const;
+  bool near(double low, double high, double reach) const;
 
   void set_longest_reach(double reach) { longest_reach_ = reach; }
   double longest_reach() const { return longest_reach_; }
@@ -44,26 +45,36 @@ private:
   /// Is `point` outside of the layer of the patch it is nearest to, and which way is out?
   bool outside_of(const OnPatch& at, const Point& point, Point& outward) const;
 
-  enum Kind : std::size_t { surface, hidden, padded, kinds }; ///< padded: of the surface, what is made thicker
+  enum Kind : std::size_t { lower, upper, rim, hidden, padded, kinds }; ///< the surface by side; padded: of it, what is made thicker
+  struct Box {
+    Point low, high; ///< m
+  };
+  /// Of patches whose middles lie in them.
   struct Columns {
     std::vector<int> first, patch;
-    std::vector<double> low, high; ///< m: across the layers
-    double offset = 0;             ///< m: largest
+    std::vector<Box> box;
+    double offset = 0; ///< m: largest
   };
   /// Calls body(patch) for those of a kind in columns that may be nearer than the square root of `square` (m2, body may lower it), until it returns true.
   template <class Body> bool any_near(const Point& point, const double& square, Kind kind, Body&& body) const;
-  /// The nearest patch of a kind within the square root of `square`, m2; of a given side: not of the other one's faces.
-  OnPatch nearest(const Point& point, double square, Kind kind, int side = -1) const;
+  /// The nearest patch of the surface within the square root of `square`, m2; of a given side: not of the other one's faces. `start` is looked at first.
+  OnPatch nearest(const Point& point, double square, int side, int start = -1) const;
 
-  void fill_columns(double bin);
+  Patch measure(const SkinPatch& p) const;
+  void fill_columns();
+  /// The column that x lies in along an axis; beyond the first or last: that one.
+  std::size_t column(std::size_t axis, double x) const;
+  /// First and last one along both axes that may have patches so near to a point.
+  std::array<std::array<std::size_t, 2>, 2> columns(const Point& point, std::array<double, 2> reach) const;
   Point held(Point point) const;
 
   Skin skin_;
   std::vector<Patch> patches_;
   std::array<double, 2> hold_low_, hold_high_; ///< m: held edges
-  std::array<double, 3> low_ = {}, high_ = {};
-  std::array<int, 2> columns_ = {};
-  double bin_ = 0, thickest_ = 0, longest_reach_ = 0; ///< m
+  std::array<double, 3> low_ = {}, high_ = {}; ///< m: across the layers only
+  std::array<std::vector<double>, 2> ends_;    ///< m: of columns, lines of the stack at rest
+  std::array<double, 2> overhang_ = {0, 0};    ///< m: of patches beyond their columns, at most
+  double thickest_ = 0, longest_reach_ = 0;    ///< m
   std::array<Columns, kinds> binned_;
 };
 

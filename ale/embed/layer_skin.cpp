@@ -24,7 +24,8 @@ constexpr Column corner_of[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 class SkinBuilder {
 public:
-  SkinBuilder(const LayerStack<3>& s, const std::vector<char>& alive, const std::vector<double>& least) : s_(s), alive_(alive), least_(least), nx_(s.grid.elements[0]), ny_(s.grid.elements[1]) {}
+  SkinBuilder(const LayerStack<3>& s, const std::vector<char>& alive, const std::vector<double>& least, ThreadPool& pool)
+      : s_(s), alive_(alive), least_(least), pool_(pool), nx_(s.grid.elements[0]), ny_(s.grid.elements[1]) {}
 
   Skin run() {
     const auto faces = static_cast<std::size_t>(2 * s_.grid.layers), nodes = s_.node(0, 0, 1);
@@ -32,39 +33,43 @@ public:
     gap_.assign(faces * nodes, apart);
     plain_.assign(faces * nodes, 0);
     across_.assign(faces * nodes, {0, 0, 0});
-    for_columns([&](int layer, Column c) { add_quads(layer, c); });
-    add_normals();
-    for (int layer = 0; layer < s_.grid.layers; ++layer) {
-      for_nodes(layer, [&](int i, int j) {
-        for (const bool low : {true, false}) {
-          find_gap(layer, {i, j}, low);
-        }
-      });
-    }
-    for (int layer = 0; layer < s_.grid.layers; ++layer) {
-      for_nodes(layer, [&](int i, int j) {
-        for (const bool low : {true, false}) {
-          skin_.vertices[at(layer, {i, j}, low)].offset = pad(layer, {i, j}, low);
-        }
-      });
-    }
-    std::vector<SkinPatch> whole;
-    whole.swap(skin_.patches);
-    for (std::size_t q = 0; q < whole.size(); ++q) {
-      if (whole[q].side == 2) {
-        skin_.patches.push_back(whole[q]);
-      } else {
-        cut(whole[q], quads_[q].layer, quads_[q].column);
+    std::vector<Part> parts(static_cast<std::size_t>(s_.grid.layers)); // vertices belong to one layer
+    parallel_ranges(pool_, s_.grid.layers, [&](int begin, int end, int) {
+      for (int layer = begin; layer < end; ++layer) {
+        Part& part = parts[static_cast<std::size_t>(layer)];
+        for_columns(layer, 0, ny_, [&](Column c) { add_quads(layer, c, part); });
+        add_normals(part);
       }
+    });
+    let_faces_go_on();
+    for_node_rows([&](int layer, Column n, bool low) { find_gap(layer, n, low); });
+    for_node_rows([&](int layer, Column n, bool low) { skin_.vertices[at(layer, n, low)].offset = pad(layer, n, low); });
+    std::vector<Quad> whole;
+    for (Part& part : parts) {
+      whole.insert(whole.end(), part.begin(), part.end());
+    }
+    constexpr int run = 64;
+    const int runs = (static_cast<int>(whole.size()) + run - 1) / run;
+    std::vector<std::vector<SkinPatch>> cut(static_cast<std::size_t>(runs));
+    each_in_turn(runs, [&](int n) {
+      const std::size_t first = static_cast<std::size_t>(n) * run, last = std::min(first + run, whole.size());
+      for (std::size_t q = first; q < last; ++q) {
+        add_visible(whole[q], cut[static_cast<std::size_t>(n)]);
+      }
+    });
+    for (const std::vector<SkinPatch>& some : cut) {
+      skin_.patches.insert(skin_.patches.end(), some.begin(), some.end());
     }
     return std::move(skin_);
   }
 
 private:
   struct Quad {
+    SkinPatch patch;
     int layer;
     Column column;
   };
+  using Part = std::vector<Quad>; ///< of a layer
   int plane(int layer, bool low) const { return layer * (s_.grid.through + 1) + (low ? 0 : s_.grid.through); }
   std::size_t at(int layer, Column n, bool low) const {
     return (static_cast<std::size_t>(2 * layer + (low ? 0 : 1)) * static_cast<std::size_t>(ny_ + 1) + static_cast<std::size_t>(n.j)) * static_cast<std::size_t>(nx_ + 1) + static_cast<std::size_t>(n.i);
@@ -88,33 +93,42 @@ private:
     return !there(layer, to);
   }
 
-  template <class Visit> void for_columns(Visit&& body) const {
-    for (int layer = 0; layer < s_.grid.layers; ++layer) {
-      for (int j = 0; j < ny_; ++j) {
-        for (int i = 0; i < nx_; ++i) {
-          if (there(layer, {i, j})) {
-            body(layer, Column{i, j});
-          }
+  /// Columns that are there, of rows [begin, end).
+  template <class Visit> void for_columns(int layer, int begin, int end, Visit&& body) const {
+    for (int j = begin; j < end; ++j) {
+      for (int i = 0; i < nx_; ++i) {
+        if (there(layer, {i, j})) {
+          body(Column{i, j});
         }
       }
     }
   }
-  /// Nodes of what is there of a layer.
-  template <class Visit> void for_nodes(int layer, Visit&& body) const {
-    for (int j = 0; j <= ny_; ++j) {
+  /// Threads take turns: work is dear where layers are torn.
+  template <class Visit> void each_in_turn(int count, Visit&& body) const {
+    pool_.run([&](int t) {
+      for (int n = t; n < count; n += pool_.size()) {
+        body(n);
+      }
+    });
+  }
+  /// Calls body(layer, node, low) for the nodes of what is there, in no order.
+  template <class Visit> void for_node_rows(Visit&& body) const {
+    each_in_turn(s_.grid.layers * (ny_ + 1), [&](int row) {
+      const int layer = row / (ny_ + 1), j = row % (ny_ + 1);
       for (int i = 0; i <= nx_; ++i) {
         if (there(layer, {i - 1, j - 1}) || there(layer, {i, j - 1}) || there(layer, {i - 1, j}) || there(layer, {i, j})) {
-          body(i, j);
+          body(layer, Column{i, j}, true);
+          body(layer, Column{i, j}, false);
         }
       }
-    }
+    });
   }
 
   struct Corner {
     Column n;
     bool low;
   };
-  void add_quad(int layer, Column c, int side, const std::array<Corner, 4>& corners) {
+  void add_quad(int layer, Column c, int side, const std::array<Corner, 4>& corners, Part& part) {
     SkinPatch p{};
     p.side = side;
     p.high = {1, 1};
@@ -123,15 +137,14 @@ private:
       p.vertex[q] = static_cast<int>(at(layer, corners[q].n, corners[q].low));
       skin_.vertices[at(layer, corners[q].n, corners[q].low)].x = place(layer, corners[q].n, corners[q].low);
     }
-    skin_.patches.push_back(p);
-    quads_.push_back({layer, c});
+    part.push_back({p, layer, c});
   }
-  void add_quads(int layer, Column c) {
+  void add_quads(int layer, Column c, Part& part) {
     const auto [i, j] = c;
     const Column a = {i, j}, b = {i + 1, j}, o = {i + 1, j + 1}, d = {i, j + 1};
-    add_quad(layer, c, 0, {{{a, true}, {d, true}, {o, true}, {b, true}}});
-    add_quad(layer, c, 1, {{{a, false}, {b, false}, {o, false}, {d, false}}});
-    const auto rim = [&](Column from, Column to) { add_quad(layer, c, 2, {{{from, true}, {to, true}, {to, false}, {from, false}}}); };
+    add_quad(layer, c, 0, {{{a, true}, {d, true}, {o, true}, {b, true}}}, part);
+    add_quad(layer, c, 1, {{{a, false}, {b, false}, {o, false}, {d, false}}}, part);
+    const auto rim = [&](Column from, Column to) { add_quad(layer, c, 2, {{{from, true}, {to, true}, {to, false}, {from, false}}}, part); };
     if (ends(layer, c, 0, -1)) {
       rim(d, a);
     }
@@ -145,8 +158,9 @@ private:
       rim(o, d);
     }
   }
-  void add_normals() {
-    for (const SkinPatch& p : skin_.patches) {
+  void add_normals(const Part& part) {
+    for (const Quad& quad : part) {
+      const SkinPatch& p = quad.patch;
       for (std::size_t q = 0; q < 4; ++q) {
         SkinVertex& v = skin_.vertices[static_cast<std::size_t>(p.vertex[q])];
         const Point &next = skin_.vertices[static_cast<std::size_t>(p.vertex[(q + 1) & 3])].x, &last = skin_.vertices[static_cast<std::size_t>(p.vertex[(q + 3) & 3])].x;
@@ -158,7 +172,10 @@ private:
         }
       }
     }
-    for (int axis = 0; axis < 2; ++axis) { // where an edge is held a face goes on
+  }
+  /// Where an edge is held.
+  void let_faces_go_on() {
+    for (int axis = 0; axis < 2; ++axis) {
       for (const int end : {0, 1}) {
         if (s_.edge[static_cast<std::size_t>(axis)][static_cast<std::size_t>(end)] == LayerEdge::free) {
           continue;
@@ -178,6 +195,7 @@ private:
     double gap = apart; ///< none
     bool beyond = false; ///< past the end of the layer
     Column column = {0, 0};
+    int layer = 0;
     bool found() const { return gap < apart; }
   };
   OnFace on(int layer, bool low, Column c, const Point& x) const {
@@ -228,18 +246,30 @@ private:
     return best;
   }
 
-  /// From a point on a layer's face to the nearest layer that lies over it on that side; `apart` if none does.
-  double gap_to_next(int layer, bool low, const Point& x, Column start) const {
+  /// The place nearest to a point on a layer's face, of the nearest layer that lies over it on that side.
+  OnFace over(int layer, bool low, const Point& x, Column start) const {
     for (int q = low ? layer - 1 : layer + 1; q >= 0 && q < s_.grid.layers; q += low ? -1 : 1) {
-      const OnFace next = nearest(q, !low, x, start);
+      OnFace next = nearest(q, !low, x, start);
       if (next.found() && !next.beyond) {
-        return next.gap;
+        next.layer = q;
+        return next;
       }
     }
-    return apart;
+    return {};
+  }
+  /// Is a layer whole for `reach` columns around one, but for its ends?
+  bool is_whole(int layer, Column c, int reach) const {
+    for (int j = std::max(0, c.j - reach); j <= std::min(ny_ - 1, c.j + reach); ++j) {
+      for (int i = std::max(0, c.i - reach); i <= std::min(nx_ - 1, c.i + reach); ++i) {
+        if (!there(layer, {i, j})) {
+          return false;
+        }
+      }
+    }
+    return true;
   }
 
-  /// At a node; `plain_` where the next layer is whole around it and has hardly slid.
+  /// At a node; `plain_` where the next layer is whole around it: between such nodes it is linear.
   void find_gap(int layer, Column n, bool low) {
     const std::size_t here = at(layer, n, low);
     const int q = low ? layer - 1 : layer + 1;
@@ -248,13 +278,14 @@ private:
       return;
     }
     const SkinVertex& v = skin_.vertices[here];
-    bool whole = true;
+    bool own = true, both = true;
     for (const Column& c : corner_of) {
       const Column column = {n.i - c.i, n.j - c.j};
       const bool outside = column.i < 0 || column.j < 0 || column.i >= nx_ || column.j >= ny_;
-      whole = whole && (outside || (there(q, column) && there(layer, column)));
+      own = own && (outside || there(layer, column));
+      both = both && own && (outside || there(q, column));
     }
-    if (whole) {
+    if (both) {
       const Point off = minus(place(q, n, !low), v.x);
       const Point& normal = across_[here];
       const double length = std::sqrt(dot(normal, normal)), across = length > 0 ? dot(off, normal) / length : 0.0, square = dot(off, off);
@@ -269,7 +300,9 @@ private:
         return;
       }
     }
-    gap_[here] = gap_to_next(layer, low, v.x, n);
+    const OnFace next = over(layer, low, v.x, n);
+    gap_[here] = next.gap;
+    plain_[here] = own && next.found() && next.layer == q && is_whole(q, next.column, 1) ? 1 : 0;
   }
   bool hidden_at(int layer, Column n, bool low) const { return gap_[at(layer, n, low)] <= seen_slit * least(n); }
 
@@ -290,8 +323,13 @@ private:
     return low ? p.below : p.above;
   }
 
-  /// Adds a lower or upper face, in parts where it is hidden in part.
-  void cut(const SkinPatch& whole, int layer, Column c) {
+  /// Adds a rim, or a lower or upper face, in parts where it is hidden in part.
+  void add_visible(const Quad& quad, std::vector<SkinPatch>& out) const {
+    const SkinPatch& whole = quad.patch;
+    if (whole.side == 2) {
+      out.push_back(whole);
+      return;
+    }
     const bool low = whole.side == 0;
     std::array<double, 4> room; // beyond what is closed, at the corners
     bool plain = true, all = true, none = true;
@@ -305,8 +343,8 @@ private:
       enough += 0.25 * seen_slit * least_[n];
     }
     if (plain && (all || none)) {
-      skin_.patches.push_back(whole);
-      skin_.patches.back().hidden = all;
+      out.push_back(whole);
+      out.back().hidden = all;
       return;
     }
     std::array<char, cuts * cuts> hidden{};
@@ -320,12 +358,12 @@ private:
           x[d] += w[q] * skin_.vertices[static_cast<std::size_t>(whole.vertex[q])].x[d];
         }
       }
-      hidden[static_cast<std::size_t>(k)] = (plain ? gap <= 0 : gap_to_next(layer, low, x, c) <= enough) ? 1 : 0;
+      hidden[static_cast<std::size_t>(k)] = (plain ? gap <= 0 : over(quad.layer, low, x, quad.column).gap <= enough) ? 1 : 0;
     }
     const auto count = std::count(hidden.begin(), hidden.end(), 1);
     if (count == 0 || count == cuts * cuts) {
-      skin_.patches.push_back(whole);
-      skin_.patches.back().hidden = count > 0;
+      out.push_back(whole);
+      out.back().hidden = count > 0;
       return;
     }
     for (int k = 0; k < cuts * cuts; ++k) {
@@ -333,16 +371,16 @@ private:
       part.low = {static_cast<double>(k % cuts) / cuts, static_cast<double>(k / cuts) / cuts};
       part.high = {static_cast<double>(k % cuts + 1) / cuts, static_cast<double>(k / cuts + 1) / cuts};
       part.hidden = hidden[static_cast<std::size_t>(k)] != 0;
-      skin_.patches.push_back(part);
+      out.push_back(part);
     }
   }
 
   const LayerStack<3>& s_;
   const std::vector<char>& alive_;
   const std::vector<double>& least_;
+  ThreadPool& pool_;
   const int nx_, ny_;
   Skin skin_;
-  std::vector<Quad> quads_;   ///< of the patches as they are added first
   std::vector<double> gap_;   ///< m: over vertices
   std::vector<char> plain_;
   std::vector<Point> across_; ///< over vertices: normal without the rims', not unit
@@ -350,6 +388,8 @@ private:
 
 } // namespace
 
-Skin find_skin(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness) { return SkinBuilder(stack, alive, least_thickness).run(); }
+Skin find_skin(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, ThreadPool& pool) {
+  return SkinBuilder(stack, alive, least_thickness, pool).run();
+}
 
 } // namespace ballast

@@ -50,13 +50,14 @@ public:
     std::vector<Outline> out;
     const int n = s_.grid.elements[0];
     for (int layer = 0; layer < s_.grid.layers; ++layer) {
+      const std::array<std::vector<std::vector<double>>, 2> over = {ends_over(layer, true), ends_over(layer, false)};
       for (int begin = 0; begin < n;) {
         int end = begin;
         while (there(layer, end)) {
           ++end;
         }
         if (end > begin) {
-          out.push_back(loop(layer, begin, end));
+          out.push_back(loop(layer, begin, end, over));
         }
         begin = std::max(end, begin + 1);
       }
@@ -152,19 +153,24 @@ private:
             a.offset + part * (b.offset - a.offset), a.side, false};
   }
 
-  /// Where, as parts of segment i of a layer's face, it may go under another layer or come out: where that layer ends, or the slit is as wide as
-  /// the mesh sees.
-  std::vector<double> breaks(int layer, int i, bool low) const {
-    constexpr double least = 1e-6;
-    std::vector<double> parts;
+  /// Where a layer's face goes under another layer or comes out because that ends: by segment, as parts of it.
+  std::vector<std::vector<double>> ends_over(int layer, bool low) const {
+    std::vector<std::vector<double>> parts(at(s_.grid.elements[0]));
     for (int q = low ? layer - 1 : layer + 1; q >= 0 && q < s_.grid.layers; q += low ? -1 : 1) {
       for (const int k : ends_[at(q)]) {
-        const OnPlane on = nearest(layer, plane(layer, low), place(k, plane(q, !low)), i);
-        if (on.segment == i && on.gap <= seen_slit * least_[at(i)]) {
-          parts.push_back(on.part);
+        const OnPlane on = nearest(layer, plane(layer, low), place(k, plane(q, !low)), std::min(k, s_.grid.elements[0] - 1));
+        if (on.segment >= 0 && on.gap <= seen_slit * least_[at(on.segment)]) {
+          parts[at(on.segment)].push_back(on.part);
         }
       }
     }
+    return parts;
+  }
+
+  /// Where, as parts of segment i of a layer's face, it may go under another layer or come out: where that layer ends (`parts`), or the slit is as
+  /// wide as the mesh sees.
+  std::vector<double> breaks(int layer, int i, bool low, std::vector<double> parts) const {
+    constexpr double least = 1e-6;
     const double a = gap_at(layer, i, low) - seen_slit * least_[at(i)], b = gap_at(layer, i + 1, low) - seen_slit * least_[at(i + 1)];
     if (a < apart && b < apart && (a > 0) != (b > 0)) {
       parts.push_back(a / (a - b));
@@ -180,10 +186,10 @@ private:
   }
 
   /// Vertices of a layer's face from node `begin` to node `end`.
-  std::vector<OutlineVertex> face(int layer, int begin, int end, bool low) const {
+  std::vector<OutlineVertex> face(int layer, int begin, int end, bool low, const std::vector<std::vector<double>>& over) const {
     std::vector<OutlineVertex> out;
     for (int i = begin; i < end; ++i) {
-      std::vector<double> ends = breaks(layer, i, low);
+      std::vector<double> ends = breaks(layer, i, low, over[at(i)]);
       ends.push_back(1);
       double from = 0;
       for (const double to : ends) {
@@ -199,8 +205,8 @@ private:
     return out;
   }
 
-  Outline loop(int layer, int begin, int end) const {
-    Outline out = face(layer, begin, end, true), upper = face(layer, begin, end, false);
+  Outline loop(int layer, int begin, int end, const std::array<std::vector<std::vector<double>>, 2>& over) const {
+    Outline out = face(layer, begin, end, true, over[0]), upper = face(layer, begin, end, false, over[1]);
     const int n = s_.grid.elements[0];
     const auto edge = [&](bool at_end, LayerEdge kind) { return !at_end || kind == LayerEdge::free ? 2 : kind == LayerEdge::symmetry ? -2 : -1; };
     out.back().side = edge(end == n, s_.edge[0][1]);

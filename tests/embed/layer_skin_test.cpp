@@ -39,7 +39,10 @@ template <class Move> void move_layer(LayerStack<3>& s, int layer, Move&& move) 
   }
 }
 
-LayerBody<3> body_of(const LayerStack<3>& s, double least) { return LayerBody<3>(s, s.alive, std::vector<double>((side + 1) * (side + 1), least), 0.7 * mm); }
+LayerBody<3> body_of(const LayerStack<3>& s, double least) {
+  ThreadPool one(1);
+  return LayerBody<3>(s, s.alive, std::vector<double>((side + 1) * (side + 1), least), 0.7 * mm, one);
+}
 
 double level_at(const LayerBody<3>& body, double x, double y, double z) {
   BodyFoot<3> foot;
