@@ -6,16 +6,47 @@ namespace ballast {
 
 namespace {
 
-Sym sym_of(const double* y) { return {y[0], y[1], y[2], y[3], y[4], y[5]}; }
+/// Flow at a state: its number and derivatives.
+struct Flow {
+  double number;    ///< dt gdot / |dev b_e|
+  double modulus;   ///< of network B, Pa
+  double by_trace;  ///< d ln modulus / d tr b_e
+  double by_square; ///< d ln number / d lam_v^2
+};
 
-/// b at s of the unit step: the series of exp(s X) b exp(s X)^T to the sixth power, 1e-8 for |X| = 0.1.
-Sym total_at(const BoyceDrive& drive, double s) {
-  Sym term = drive.total, sum = term;
-  for (int k = 1; k <= 6; ++k) {
-    term = scaled(s / k, drag(drive.path, term));
-    sum = combine(1, sum, 1, term);
+Flow flow_at(const BergstroemBoyce& m, double dt, double q, double elastic_trace, double stretch_square) {
+  const SpringModulus spring = spring_modulus(m.b, elastic_trace);
+  const double lam = std::sqrt(stretch_square), reach = lam - 1 + m.start;
+  // (|s|/base)^m / |dev b_e| without dividing by what may be 0.
+  const double ratio = spring.value / m.base;
+  const double number = dt * m.rate * std::pow(reach, m.stretch_power) * ratio * std::pow(ratio * q, m.exponent - 1);
+  return {number, spring.value, spring.slope / spring.value, 0.5 * m.stretch_power / (reach * lam)};
+}
+
+/// What CVODE's variables say of the elastic strain: m = v^-1 C is similar to b_e.
+struct Elastic {
+  Sym c, inverse;
+  Mat m;
+  double mean;   ///< t
+  double square; ///< |dev b_e|^2
+};
+
+Elastic elastic_of(const BoyceDrive& drive, double s, const Sym& v) {
+  Elastic e;
+  e.c = drive.square[6];
+  for (std::size_t k = 6; k-- > 0;) {
+    e.c = combine(s, e.c, 1, drive.square[k]);
   }
-  return sum;
+  e.inverse = inverse(v);
+  e.m = product(full(e.inverse), full(e.c));
+  e.mean = (e.m[0] + e.m[4] + e.m[8]) / 3;
+  const Mat q = without_trace(e.m);
+  e.square = std::max(0.0, q[0] * q[0] + q[4] * q[4] + q[8] * q[8] + 2 * (q[1] * q[3] + q[2] * q[6] + q[5] * q[7]));
+  return e;
+}
+
+Flow flow_at(const BergstroemBoyce& m, const BoyceDrive& drive, const Elastic& e, const Sym& v) {
+  return flow_at(m, drive.dt, std::sqrt(e.square), 3 * e.mean, contract(v, drive.total) / 3);
 }
 
 /// m^T m.
@@ -42,7 +73,7 @@ struct Substep {
   double number(const Sym& viscous, const Sym& total, double mean, double x, Middle& middle) const {
     const Sym v = relaxed(viscous, half_square, mean, 0.5 * x);
     const Sym b = push(half, inverse(v));
-    const BoyceFlow flow = boyce_flow(law, dt, b, contract(v, total) / 3);
+    const Flow flow = flow_at(law, dt, norm(deviator(b)), trace(b), contract(v, total) / 3);
     middle = {trace(b) / 3, flow.modulus};
     return 2 * flow.number * middle.mean;
   }
@@ -81,49 +112,48 @@ double viscous_stretch(const Sym& total, const Sym& elastic) { return std::sqrt(
 
 double stored_energy(const BergstroemBoyce& m, const Sym& elastic) { return spring_energy(m.b, trace(elastic)); }
 
-BoyceFlow boyce_flow(const BergstroemBoyce& m, double dt, const Sym& elastic, double stretch_square) {
-  const SpringModulus spring = spring_modulus(m.b, trace(elastic));
-  const double q = norm(deviator(elastic)), lam = std::sqrt(stretch_square), reach = lam - 1 + m.start;
-  // (|s|/base)^m / |dev b_e| without dividing by what may be 0.
-  const double ratio = spring.value / m.base;
-  const double number = dt * m.rate * std::pow(reach, m.stretch_power) * ratio * std::pow(ratio * q, m.exponent - 1);
-  return {number, spring.value, m.exponent - 1, spring.slope / spring.value, 0.5 * m.stretch_power / (reach * lam)};
-}
+double error_scale(const BergstroemBoyce& m, const Sym& y) { return std::max(norm(deviator(y)), 0.01 * m.base / m.b.shear); }
 
-// y' = X y + y X^T - 2 n (y^2 - t y), t = tr y / 3; dissipation n modulus |dev y|^2.
-void rate(const BergstroemBoyce& m, const BoyceDrive& drive, double s, const double* y, double* rate) {
-  const Sym e = sym_of(y), q = deviator(e);
-  const BoyceFlow flow = boyce_flow(m, drive.dt, e, contract(cofactor(e), total_at(drive, s)) / 3);
-  const Sym carried = drag(drive.path, e), flows = scaled(0.5, drag(full(q), e));
-  for (std::size_t a = 0; a < 6; ++a) {
-    rate[a] = carried[a] - 2 * flow.number * flows[a];
-  }
-  rate[6] = flow.number * flow.modulus * contract(q, q);
-}
-
-void jacobian(const BergstroemBoyce& m, const BoyceDrive& drive, double s, const double* y, BranchJacobian& out) {
-  const Sym e = sym_of(y), q = deviator(e), total = total_at(drive, s);
-  const BoyceFlow flow = boyce_flow(m, drive.dt, e, contract(cofactor(e), total) / 3);
-  const Sym flows = scaled(0.5, drag(full(q), e)), stretch = scaled(1.0 / 3, mixed_cofactor(e, total));
-  const double square = contract(q, q), mean = trace(e) / 3, heat = flow.number * flow.modulus;
-  for (std::size_t b = 0; b < 6; ++b) {
-    Sym unit{};
-    unit[b] = 1;
-    const double twice = b < 3 ? 1 : 2, trace_part = b < 3 ? 1 : 0;
-    const double by_norm = square > 0 ? twice * q[b] / square : 0; // d ln |q|
-    const double by_modulus = flow.by_trace * trace_part;
-    const double log_number = flow.by_norm * by_norm + m.exponent * by_modulus + flow.by_square * twice * stretch[b];
-    const Sym carried = drag(drive.path, unit), turned = drag(full(e), unit);
-    for (std::size_t a = 0; a < 6; ++a) {
-      out[6 * a + b] =
-          carried[a] - 2 * flow.number * (turned[a] - mean * unit[a] - trace_part / 3 * e[a] + flows[a] * log_number);
-    }
-    out[36 + b] = heat * (square * (log_number + by_modulus) + 2 * twice * q[b]);
+void prepare(BoyceDrive& drive) {
+  const Mat back = transposed(drive.path);
+  drive.square[0] = unit_sym;
+  for (std::size_t k = 1; k < drive.square.size(); ++k) {
+    drive.square[k] = scaled(1.0 / static_cast<double>(k), drag(back, drive.square[k - 1]));
   }
 }
 
-double error_scale(const BergstroemBoyce& m, const double* y) {
-  return std::max(norm(deviator(sym_of(y))), 0.01 * m.base / m.b.shear);
+Sym to_variables(const BoyceDrive&, const Sym& elastic) { return inverse(elastic); }
+
+Sym from_variables(const BoyceDrive& drive, double s, const Sym& v) {
+  Mat path = drive.path;
+  for (double& x : path) {
+    x *= s;
+  }
+  return unimodular(push(exponential(path), inverse(v)));
+}
+
+void rate(const BergstroemBoyce& m, const BoyceDrive& drive, double s, const Sym& v, Sym& rate, double& heat) {
+  const Elastic e = elastic_of(drive, s, v);
+  const Flow flow = flow_at(m, drive, e, v);
+  rate = scaled(2 * flow.number, combine(1, e.c, -e.mean, v));
+  heat = flow.number * flow.modulus * e.square;
+}
+
+// With p = v^-1 C v^-1: dt = -p:dv/3 and d|dev b_e|^2 = -2 (m - t) p : dv.
+void jacobian(const BergstroemBoyce& m, const BoyceDrive& drive, double s, const Sym& v, BranchJacobian& out) {
+  const Elastic e = elastic_of(drive, s, v);
+  const Flow flow = flow_at(m, drive, e, v);
+  const Mat p = product(e.m, full(e.inverse));
+  const Sym by_mean = by_variables(scaled(-1.0 / 3, symmetric_part(p)));
+  const Sym by_square = by_variables(scaled(-2, symmetric_part(product(without_trace(e.m), p))));
+  const double steep = e.square > 0 ? 0.5 * (m.exponent - 1) / e.square : 0;
+  const Sym log_number = combine(1, combine(steep, by_square, 3 * m.exponent * flow.by_trace, by_mean),
+                                 flow.by_square / 3, by_variables(drive.total));
+  const double heat = flow.number * flow.modulus;
+  out.diagonal = -2 * flow.number * e.mean;
+  out.left = {scaled(2 * flow.number, combine(1, e.c, -e.mean, v)), scaled(-2 * flow.number, v)};
+  out.right = {log_number, by_mean};
+  out.heat = scaled(heat, combine(1, combine(e.square, log_number, 3 * e.square * flow.by_trace, by_mean), 1, by_square));
 }
 
 FastStep fast_step(const BergstroemBoyce& m, const BoyceDrive& drive, const Sym& y, int substeps) {

@@ -44,22 +44,19 @@ struct BoyceDrive {
   Mat path{};
   Sym total = unit_sym;
   double dt = 0;
+  std::array<Sym, 7> square{}; ///< C(s) from the step's start, by powers of s; set by prepare
 };
 
-/// Flow at a state: dt lam', and its derivatives by b_e.
-struct BoyceFlow {
-  double number;    ///< dt gdot / |dev b_e|
-  double modulus;   ///< of network B, Pa
-  double by_norm;   ///< d ln number / d ln |dev b_e|, less the modulus' part
-  double by_trace;  ///< d ln modulus / d tr b_e
-  double by_square; ///< d ln number / d lam_v^2
-};
-BoyceFlow boyce_flow(const BergstroemBoyce& m, double dt, const Sym& elastic, double stretch_square);
-
-void rate(const BergstroemBoyce& m, const BoyceDrive& drive, double s, const double* y, double* rate);
-void jacobian(const BergstroemBoyce& m, const BoyceDrive& drive, double s, const double* y, BranchJacobian& out);
 /// |dev b_e|, at least a hundredth of tau_base's elastic strain.
-double error_scale(const BergstroemBoyce& m, const double* y);
+double error_scale(const BergstroemBoyce& m, const Sym& y);
+// For CVODE: v = C_v from the step's start, v' = 2 n (C(s) - t v), t = tr(v^-1 C)/3, n = dt gdot/|dev b_e|. Elastic
+// motion is exact in v, and lam_v^2 = v : b_n / 3. C(s) to the sixth power: 1e-8 for |L dt| = 0.1.
+void prepare(BoyceDrive& drive);
+Sym to_variables(const BoyceDrive& drive, const Sym& elastic);
+/// b_e at s, unimodular.
+Sym from_variables(const BoyceDrive& drive, double s, const Sym& v);
+void rate(const BergstroemBoyce& m, const BoyceDrive& drive, double s, const Sym& v, Sym& rate, double& heat);
+void jacobian(const BergstroemBoyce& m, const BoyceDrive& drive, double s, const Sym& v, BranchJacobian& out);
 /// `substeps` exponential steps; the dissipation is a positive quadrature, second order.
 FastStep fast_step(const BergstroemBoyce& m, const BoyceDrive& drive, const Sym& y, int substeps);
 

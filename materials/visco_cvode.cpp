@@ -24,25 +24,33 @@ struct System {
   const void* law = nullptr;
   const void* drives = nullptr;
   std::size_t cells = 0; ///< the rest of the vector is padding, at rest
-  void (*rate)(const System&, std::size_t cell, double s, const double* y, double* out) = nullptr;
-  void (*jacobian)(const System&, std::size_t cell, double s, const double* y, BranchJacobian& out) = nullptr;
-  double (*scale)(const System&, const double* y) = nullptr;
+  void (*rate)(const System&, std::size_t cell, double s, const Sym& v, Sym& out, double& heat) = nullptr;
+  void (*jacobian)(const System&, std::size_t cell, double s, const Sym& v, BranchJacobian& out) = nullptr;
+  Sym (*enter)(const System&, std::size_t cell, const Sym& y) = nullptr;
+  Sym (*leave)(const System&, std::size_t cell, double s, const Sym& v) = nullptr;
+  double (*scale)(const System&, const Sym& y) = nullptr;
+};
+
+template <class Law, class Drive> struct Typed {
+  static const Law& law(const System& s) { return *static_cast<const Law*>(s.law); }
+  static const Drive& drive(const System& s, std::size_t cell) { return static_cast<const Drive*>(s.drives)[cell]; }
+  static void rate(const System& s, std::size_t c, double t, const Sym& v, Sym& out, double& heat) {
+    ballast::rate(law(s), drive(s, c), t, v, out, heat);
+  }
+  static void jacobian(const System& s, std::size_t c, double t, const Sym& v, BranchJacobian& out) {
+    ballast::jacobian(law(s), drive(s, c), t, v, out);
+  }
+  static Sym enter(const System& s, std::size_t c, const Sym& y) { return to_variables(drive(s, c), y); }
+  static Sym leave(const System& s, std::size_t c, double t, const Sym& v) { return from_variables(drive(s, c), t, v); }
+  static double scale(const System& s, const Sym& y) { return error_scale(law(s), y); }
 };
 
 template <class Law, class Drive> System system_of(const Law& law, const Drive* drives, std::size_t cells) {
-  System system{&law, drives, cells};
-  const auto law_of = [](const System& s) -> const Law& { return *static_cast<const Law*>(s.law); };
-  static constexpr auto drive_of = [](const System& s, std::size_t c) -> const Drive& { return static_cast<const Drive*>(s.drives)[c]; };
-  static constexpr auto get = law_of;
-  system.rate = [](const System& s, std::size_t c, double t, const double* y, double* out) {
-    ballast::rate(get(s), drive_of(s, c), t, y, out);
-  };
-  system.jacobian = [](const System& s, std::size_t c, double t, const double* y, BranchJacobian& out) {
-    ballast::jacobian(get(s), drive_of(s, c), t, y, out);
-  };
-  system.scale = [](const System& s, const double* y) { return error_scale(get(s), y); };
-  return system;
+  using T = Typed<Law, Drive>;
+  return {&law, drives, cells, T::rate, T::jacobian, T::enter, T::leave, T::scale};
 }
+
+Sym load(const double* x) { return {x[0], x[1], x[2], x[3], x[4], x[5]}; }
 
 /// Relative tolerance and system: what CVODE's callbacks are given.
 struct Job {
@@ -58,7 +66,9 @@ int rate_callback(realtype s, N_Vector y, N_Vector out, void* user) {
   std::fill_n(to + width * system.cells, static_cast<std::size_t>(N_VGetLength(out)) - width * system.cells, 0.0);
   double sum = 0;
   for (std::size_t c = 0; c < system.cells; ++c) {
-    system.rate(system, c, s, from + width * c, to + width * c);
+    Sym rate;
+    system.rate(system, c, s, load(from + width * c), rate, to[width * c + 6]);
+    std::copy_n(rate.data(), 6, to + width * c);
     sum += to[width * c + 6];
   }
   return std::isfinite(sum) ? 0 : 1; // 1: CVODE tries a smaller step
@@ -68,9 +78,12 @@ int weight_callback(N_Vector y, N_Vector weight, void* user) {
   const Job& job = *static_cast<Job*>(user);
   const double* from = N_VGetArrayPointer(y);
   double* to = N_VGetArrayPointer(weight);
+  double s = 0;
+  CVodeGetCurrentTime(job.cvode, &s);
   std::fill_n(to, N_VGetLength(weight), 1.0);
   for (std::size_t c = 0; c < job.system.cells; ++c) {
-    std::fill_n(to + width * c, 6, 1 / (job.tolerance * job.system.scale(job.system, from + width * c)));
+    const Sym state = job.system.leave(job.system, c, s, load(from + width * c));
+    std::fill_n(to + width * c, 6, 1 / (job.tolerance * job.system.scale(job.system, state)));
   }
   return 0;
 }
@@ -90,43 +103,25 @@ double worst_cell_norm(N_Vector v, N_Vector weight) {
   return std::sqrt(worst / 6);
 }
 
-/// x of (1 - gamma J) x = b for one cell: Gaussian elimination with row pivots, then the seventh.
+double dot(const Sym& a, const Sym& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
+}
+
+/// x of (1 - gamma J) x = b for one cell: d x = b + gamma (left_0 z_0 + left_1 z_1), z_k = right_k x, two by two
+/// (Woodbury); then the seventh.
 bool solve_cell(double gamma, const BranchJacobian& j, const double* b, double* x) {
-  std::array<double, 42> m;
-  for (std::size_t r = 0; r < 6; ++r) {
-    for (std::size_t c = 0; c < 6; ++c) {
-      m[7 * r + c] = (r == c ? 1 : 0) - gamma * j[6 * r + c];
-    }
-    m[7 * r + 6] = b[r];
+  const Sym right = load(b);
+  const double d = 1 / (1 - gamma * j.diagonal), g = gamma * d;
+  const double a00 = 1 - g * dot(j.right[0], j.left[0]), a01 = -g * dot(j.right[0], j.left[1]);
+  const double a10 = -g * dot(j.right[1], j.left[0]), a11 = 1 - g * dot(j.right[1], j.left[1]);
+  const double r0 = d * dot(j.right[0], right), r1 = d * dot(j.right[1], right), det = a00 * a11 - a01 * a10;
+  if (!(std::abs(det) > 1e-14 * (std::abs(a00 * a11) + std::abs(a01 * a10)))) {
+    return false;
   }
-  for (std::size_t k = 0; k < 6; ++k) {
-    std::size_t best = k;
-    for (std::size_t r = k + 1; r < 6; ++r) {
-      best = std::abs(m[7 * r + k]) > std::abs(m[7 * best + k]) ? r : best;
-    }
-    if (!(std::abs(m[7 * best + k]) > 0)) {
-      return false;
-    }
-    if (best != k) {
-      std::swap_ranges(&m[7 * k], &m[7 * k] + 7, &m[7 * best]);
-    }
-    for (std::size_t r = k + 1; r < 6; ++r) {
-      const double factor = m[7 * r + k] / m[7 * k + k];
-      for (std::size_t c = k + 1; c < 7; ++c) {
-        m[7 * r + c] -= factor * m[7 * k + c];
-      }
-    }
-  }
-  double heat = b[6];
-  for (std::size_t k = 6; k-- > 0;) {
-    double sum = m[7 * k + 6];
-    for (std::size_t c = k + 1; c < 6; ++c) {
-      sum -= m[7 * k + c] * x[c];
-    }
-    x[k] = sum / m[7 * k + k];
-    heat += gamma * j[36 + k] * x[k];
-  }
-  x[6] = heat;
+  const double z0 = (r0 * a11 - r1 * a01) / det, z1 = (r1 * a00 - r0 * a10) / det;
+  const Sym solution = combine(d, right, g, combine(z0, j.left[0], z1, j.left[1]));
+  std::copy_n(solution.data(), 6, x);
+  x[6] = b[6] + gamma * dot(j.heat, solution);
   return true;
 }
 
@@ -143,7 +138,7 @@ int block_solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realt
   double* left = N_VGetArrayPointer(x);
   BranchJacobian j;
   for (std::size_t c = 0; c < job.system.cells; ++c) {
-    job.system.jacobian(job.system, c, s, state + width * c, j);
+    job.system.jacobian(job.system, c, s, load(state + width * c), j);
     if (!solve_cell(gamma, j, right + width * c, left + width * c)) {
       return 1;
     }
@@ -198,7 +193,8 @@ public:
   int run(const System& system, BranchState* states, BatchCounts& counts, double& reached) {
     job_.system = system;
     for (std::size_t c = 0; c < system.cells; ++c) {
-      std::copy_n(states[c].y.data(), 6, &storage_[width * c]);
+      const Sym v = system.enter(system, c, states[c].y);
+      std::copy_n(v.data(), 6, &storage_[width * c]);
       storage_[width * c + 6] = 0;
     }
     std::fill(storage_.begin() + static_cast<std::ptrdiff_t>(width * system.cells), storage_.end(), 0.0);
@@ -215,16 +211,14 @@ public:
     ++counts.batches;
     if (flag >= 0) {
       for (std::size_t c = 0; c < system.cells; ++c) {
-        std::copy_n(&storage_[width * c], 6, states[c].y.data());
-        states[c].dissipated = storage_[width * c + 6];
+        states[c] = {system.leave(system, c, 1, load(&storage_[width * c])), storage_[width * c + 6]};
       }
     }
     return flag;
   }
-  [[nodiscard]] Sym state(std::size_t cell) const {
-    Sym s;
-    std::copy_n(&storage_[width * cell], 6, s.begin());
-    return s;
+  /// Where a failed run stopped.
+  [[nodiscard]] Sym state(std::size_t cell, double reached) const {
+    return job_.system.leave(job_.system, cell, reached, load(&storage_[width * cell]));
   }
 
 private:
@@ -284,7 +278,7 @@ std::optional<BatchFailure> BatchSolver::solve(const Law& law, std::span<const D
     const int flag = one.run(system_of(law, &drives[cell], 1), &states[cell], counts, reached);
     if (flag < 0) {
       ++counts.failures;
-      first = first ? first : BatchFailure{static_cast<int>(cell), flag, reached, one.state(0)};
+      first = first ? first : BatchFailure{static_cast<int>(cell), flag, reached, one.state(0, reached)};
     }
   };
   const auto most = static_cast<std::size_t>(impl_->options.batch);

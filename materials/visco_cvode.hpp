@@ -1,7 +1,7 @@
 // Stiff branches of many cells at once by SUNDIALS' CVODE (BDF, Newton with the laws' own Jacobians).
 //
-// A batch of cells is one system of 7 variables a cell over the unit step; its matrix is blocks of 6, solved in place,
-// and its error is that of its worst cell (a mean over the batch would dilute one hot cell). CVODE starts anew for every
+// A batch of cells is one system of 7 variables a cell over the unit step; its matrix is one block a cell (a multiple of
+// the unit matrix and two dyads), solved where it is needed, and its error is that of its worst cell (a mean over the batch would dilute one hot cell). CVODE starts anew for every
 // batch: results depend on the cells of the batch, not on history, threads or order. Cost: docs/viscoelasticity.md.
 // Hindmarsh et al., ACM TOMS 31 (2005) 363.
 #pragma once
@@ -43,7 +43,7 @@ public:
   BatchSolver(BatchSolver&&) noexcept;
   BatchSolver& operator=(BatchSolver&&) noexcept;
 
-  /// Over one step, in batches of neighbours in the span. A batch that fails is done again cell by cell; cells that
+  /// Over one step, in batches of neighbours in the span; drives have been through prepare. A batch that fails is done again cell by cell; cells that
   /// still fail keep their state, the first of them is returned. Laws: PowerLawBranch, BergstroemBoyce.
   template <class Law, class Drive>
   [[nodiscard]] std::optional<BatchFailure>

@@ -1,7 +1,7 @@
 // Nonlinear branches: what a flow law gives to the integrators, and the rate that is consistent with its own step.
 //
-// A branch is y' = F(y) over the unit step s in [0, 1], y six components, with the dissipated energy as seventh. Both
-// ways to integrate use it: an exponential step with a frozen rate (the fast path, here), and CVODE (visco_cvode).
+// Two ways to integrate: an exponential step with a frozen rate (the fast path, here), and CVODE (visco_cvode), for
+// which a law gives v' = F(v, s) over the unit step s in [0, 1], six variables v of its choice and the dissipation.
 // The fast path freezes the relaxation number x = rate dt at the rate of the step's own middle,
 //   x = number(y_half(x)),
 // which is second order, exact in the steady state however large x is, and never overshoots: each result is a mean,
@@ -21,8 +21,16 @@ struct BranchState {
   double dissipated = 0;
 };
 
-/// Rows: derivatives of the seven rates by the six components (the tied shears count as one variable).
-using BranchJacobian = std::array<double, 42>;
+/// Of the rates by the six variables (a shear and its twin are one): diagonal 1 + left_0 right_0^T + left_1 right_1^T;
+/// and the gradient of the dissipation's rate.
+struct BranchJacobian {
+  double diagonal = 0;
+  std::array<Sym, 2> left{}, right{};
+  Sym heat{};
+};
+
+/// Gradient by the six variables of a function whose differential is g : dy.
+inline Sym by_variables(const Sym& g) { return {g[0], g[1], g[2], 2 * g[3], 2 * g[4], 2 * g[5]}; }
 
 struct FastStep {
   BranchState state;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace ballast {
 
@@ -26,11 +25,12 @@ void TissueIntegrator::size_for(std::size_t cells) {
     states_.resize(cells);
     work_.resize(cells);
     turns_.resize(cells);
+    strains_.resize(cells);
   }
 }
 
-/// False: over the tolerance, and the state holds the best fast result only if it is a number.
-template <class Law, class Drive> bool TissueIntegrator::try_fast(const Law& law, const Drive& drive, std::size_t i) {
+/// The state becomes the best fast result where that is a number.
+template <class Law, class Drive> TissueIntegrator::Fast TissueIntegrator::try_fast(const Law& law, const Drive& drive, std::size_t i) {
   const Sym start = states_[i].y;
   const bool estimated = options_.path != BranchPath::fixed;
   int n = estimated ? 1 : options_.substeps;
@@ -39,23 +39,23 @@ template <class Law, class Drive> bool TissueIntegrator::try_fast(const Law& law
   while (!(estimate <= options_.tolerance) && 2 * n <= options_.substeps) {
     n *= 2;
     const FastStep finer = fast_step(law, drive, start, n);
-    const double scale = std::max(error_scale(law, finer.state.y.data()), error_scale(law, start.data()));
+    const double scale = std::max(error_scale(law, finer.state.y), error_scale(law, start));
     estimate = norm(combine(1, finer.state.y, -1, step.state.y)) / scale;
     step = finer;
   }
-  if (std::isfinite(contract(step.state.y, step.state.y) + step.state.dissipated)) {
-    states_[i] = step.state;
-    work_[i] = step.work;
-  } else {
-    estimate = std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(contract(step.state.y, step.state.y) + step.state.dissipated)) {
+    ++counts_.over;
+    return Fast::no_number;
   }
+  states_[i] = step.state;
+  work_[i] = step.work;
   if (!(estimate <= options_.tolerance)) {
     ++counts_.over;
-    return false;
+    return Fast::over;
   }
   ++counts_.fast[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(n)))];
   counts_.worst_estimate = std::max(counts_.worst_estimate, estimate);
-  return true;
+  return Fast::accepted;
 }
 
 namespace {
@@ -70,6 +70,7 @@ std::optional<BatchFailure> TissueIntegrator::solve_stiff(const Law& law, std::s
   gathered.clear();
   for (const std::size_t i : stiff_) {
     gathered.push_back(drives[i]);
+    prepare(gathered.back());
   }
   counts_.stiff += static_cast<long>(stiff_.size());
   std::optional<BatchFailure> failure = solver_.solve(law, std::span<const Drive>(gathered), std::span(stiff_states_));
@@ -93,15 +94,17 @@ std::optional<BatchFailure> TissueIntegrator::advance_branch(const Law& law, std
   std::optional<BatchFailure> failure;
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const BranchState start = states_[i];
-    if (options_.path != BranchPath::cvode && try_fast(law, drives[i], i)) {
+    const Fast fast = options_.path == BranchPath::cvode ? Fast::over : try_fast(law, drives[i], i);
+    if (fast == Fast::accepted) {
       continue;
     }
     if (options_.path == BranchPath::mixed || options_.path == BranchPath::cvode) {
       states_[i] = start;
       stiff_.push_back(i);
       stiff_states_.push_back(start);
-    } else if (!failure && !std::isfinite(work_[i])) {
-      failure = BatchFailure{static_cast<int>(i), 0, 0, start.y};
+    } else if (fast == Fast::no_number) {
+      ++counts_.no_number;
+      failure = failure ? failure : BatchFailure{static_cast<int>(i), 0, 0, start.y};
     }
   }
   return stiff_.empty() ? failure : solve_stiff(law, drives);
@@ -115,25 +118,22 @@ std::optional<TissueFailure> TissueIntegrator::advance(const PowerLawZener& m, c
   for (std::size_t i = 0; i < cells; ++i) { // the long-term spring
     const Mat g = gradient_dt(row, i);
     turns_[i] = half_rotation(g);
-    drives[i].pull = deviator(symmetric_part(g)); // of each branch below: times 2 G
-    drives[i].dt = row.dt;
-    const Sym before = push(turns_[i], load_sym(row, 0, i)), pull = scaled(2 * m.long_shear, drives[i].pull);
-    const Sym after = push(turns_[i], combine(1, before, 1, pull));
+    strains_[i] = deviator(symmetric_part(g));
+    const Sym before = push(turns_[i], load_sym(row, 0, i));
+    const Sym after = push(turns_[i], combine(1, before, 2 * m.long_shear, strains_[i]));
     store_sym(row, 0, i, after);
     const double stored = m.long_shear > 0 ? contract(after, after) / (4 * m.long_shear) : 0;
-    const double work = contract(before, drives[i].pull) + m.long_shear * contract(drives[i].pull, drives[i].pull);
+    const double work = contract(before, strains_[i]) + m.long_shear * contract(strains_[i], strains_[i]);
     store_result(row, i, after, stored, 0, work);
   }
   std::optional<TissueFailure> first;
-  double shear = 0.5;
   for (std::size_t b = 0; b < m.branches; ++b) {
     const PowerLawBranch& law = m.branch[b];
     for (std::size_t i = 0; i < cells; ++i) {
-      drives[i].pull = scaled(law.shear / shear, drives[i].pull);
+      drives[i] = {scaled(2 * law.shear, strains_[i]), row.dt};
       states_[i] = {push(turns_[i], load_sym(row, 6 * (b + 1), i)), 0};
       work_[i] = 0;
     }
-    shear = law.shear;
     const auto failure = advance_branch(law, std::span<const PowerLawDrive>(drives));
     if (failure && !first) {
       first = TissueFailure{failure->cell, b, failure->reason, failure->reached, failure->state};
@@ -157,8 +157,8 @@ std::optional<TissueFailure> TissueIntegrator::advance(const BergstroemBoyce& m,
   size_for(cells);
   boyce_drives_.resize(cells);
   for (std::size_t i = 0; i < cells; ++i) {
-    boyce_drives_[i] = {without_trace(path_exponent(gradient_dt(row, i))), load_sym(row, 0, i), row.dt};
-    states_[i] = {load_sym(row, 6, i), 0};
+    boyce_drives_[i] = {without_trace(path_exponent(gradient_dt(row, i))), unimodular(load_sym(row, 0, i)), row.dt};
+    states_[i] = {unimodular(load_sym(row, 6, i)), 0};
     work_[i] = 0;
   }
   const auto failure = advance_branch(m, std::span<const BoyceDrive>(boyce_drives_));

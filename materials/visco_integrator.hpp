@@ -7,7 +7,8 @@
 #include "materials/visco_cvode.hpp"
 #include "materials/visco_prony.hpp"
 
-#include <variant>
+#include <array>
+#include <vector>
 
 namespace ballast {
 
@@ -29,6 +30,7 @@ struct TissueOptions {
 struct TissueCounts {
   std::array<long, 4> fast{}; ///< accepted after 1, 2, 4, 8 substeps
   long over = 0;              ///< the fast path's estimate is above the tolerance (or no number)
+  long no_number = 0;         ///< of those: fails, without CVODE
   long stiff = 0;             ///< integrated by CVODE
   double worst_estimate = 0;  ///< of accepted cells
   BatchCounts cvode{};
@@ -47,7 +49,8 @@ class TissueIntegrator {
 public:
   explicit TissueIntegrator(const TissueOptions& options);
 
-  /// One step; Prony rows need no integrator. A cell that fails keeps its state of the start, is counted, and the first is returned.
+  /// One step; Prony rows need no integrator. Bergstroem-Boyce tensors are made unimodular first (a remap mixes them).
+  /// A cell that fails keeps its state of the start, is counted, and the first is returned.
   [[nodiscard]] std::optional<TissueFailure> advance(const PowerLawZener& m, const ViscoRow& row);
   [[nodiscard]] std::optional<TissueFailure> advance(const BergstroemBoyce& m, const ViscoRow& row);
 
@@ -56,7 +59,8 @@ public:
 private:
   template <class Law, class Drive>
   std::optional<BatchFailure> advance_branch(const Law& law, std::span<const Drive> drives);
-  template <class Law, class Drive> bool try_fast(const Law& law, const Drive& drive, std::size_t i);
+  enum class Fast { accepted, over, no_number };
+  template <class Law, class Drive> Fast try_fast(const Law& law, const Drive& drive, std::size_t i);
   template <class Law, class Drive>
   std::optional<BatchFailure> solve_stiff(const Law& law, std::span<const Drive> drives);
   void size_for(std::size_t cells);
@@ -68,6 +72,7 @@ private:
   std::vector<BranchState> states_;
   std::vector<double> work_;
   std::vector<Mat> turns_;
+  std::vector<Sym> strains_;
   std::vector<PowerLawDrive> power_drives_, stiff_power_;
   std::vector<BoyceDrive> boyce_drives_, stiff_boyce_;
   std::vector<std::size_t> stiff_;

@@ -25,32 +25,24 @@ double instant_shear(const PowerLawZener& m) {
   return sum;
 }
 
-// y' = pull - n y, n = (dt/tau0) (|y|/s0)^(m-1); dissipation n y:y/(2G).
-void rate(const PowerLawBranch& m, const PowerLawDrive& drive, double, const double* y, double* rate) {
-  const Sym s{y[0], y[1], y[2], y[3], y[4], y[5]};
-  const double square = contract(s, s), n = relaxation_number(m, drive.dt, square);
-  for (std::size_t a = 0; a < 6; ++a) {
-    rate[a] = drive.pull[a] - n * s[a];
-  }
-  rate[6] = n * square / (2 * m.shear);
+// v' = pull - n v, n = (dt/tau0) (|v|/s0)^(m-1); dissipation n v:v/(2G).
+void rate(const PowerLawBranch& m, const PowerLawDrive& drive, double, const Sym& v, Sym& rate, double& heat) {
+  const double square = contract(v, v), n = relaxation_number(m, drive.dt, square);
+  rate = combine(1, drive.pull, -n, v);
+  heat = n * square / (2 * m.shear);
 }
 
-void jacobian(const PowerLawBranch& m, const PowerLawDrive& drive, double, const double* y, BranchJacobian& out) {
-  const Sym s{y[0], y[1], y[2], y[3], y[4], y[5]};
-  const double square = contract(s, s), n = relaxation_number(m, drive.dt, square);
-  const double steep = square > 0 ? n * (m.exponent - 1) / square : 0;
-  for (std::size_t b = 0; b < 6; ++b) {
-    const double along = (b < 3 ? 1 : 2) * s[b]; // half the derivative of s:s
-    for (std::size_t a = 0; a < 6; ++a) {
-      out[6 * a + b] = -steep * s[a] * along - (a == b ? n : 0);
-    }
-    out[36 + b] = n * (m.exponent + 1) * along / (2 * m.shear);
-  }
+void jacobian(const PowerLawBranch& m, const PowerLawDrive& drive, double, const Sym& v, BranchJacobian& out) {
+  const double square = contract(v, v), n = relaxation_number(m, drive.dt, square);
+  const Sym along = by_variables(v); // half the gradient of v:v
+  out = {};
+  out.diagonal = -n;
+  out.left[0] = v;
+  out.right[0] = scaled(square > 0 ? -n * (m.exponent - 1) / square : 0, along);
+  out.heat = scaled(n * (m.exponent + 1) / (2 * m.shear), along);
 }
 
-double error_scale(const PowerLawBranch& m, const double* y) {
-  return std::max(norm(Sym{y[0], y[1], y[2], y[3], y[4], y[5]}), 0.01 * m.reference);
-}
+double error_scale(const PowerLawBranch& m, const Sym& y) { return std::max(norm(y), 0.01 * m.reference); }
 
 double stored_energy(const PowerLawBranch& m, const Sym& y) { return contract(y, y) / (4 * m.shear); }
 

@@ -41,11 +41,14 @@ struct PowerLawDrive {
 inline double relaxation_number(const PowerLawBranch& m, double dt, double square) {
   return dt / m.time * std::pow(square / (m.reference * m.reference), 0.5 * (m.exponent - 1));
 }
-/// Of the seven variables over the unit step, at s; needed by CVODE.
-void rate(const PowerLawBranch& m, const PowerLawDrive& drive, double s, const double* y, double* rate);
-void jacobian(const PowerLawBranch& m, const PowerLawDrive& drive, double s, const double* y, BranchJacobian& out);
 /// What an error of y is measured by: |s|, at least s0/100.
-double error_scale(const PowerLawBranch& m, const double* y);
+double error_scale(const PowerLawBranch& m, const Sym& y);
+// For CVODE: variables, their rates and the dissipation's over the unit step. Here v = y.
+inline void prepare(PowerLawDrive&) {}
+inline Sym to_variables(const PowerLawDrive&, const Sym& y) { return y; }
+inline Sym from_variables(const PowerLawDrive&, double, const Sym& v) { return v; }
+void rate(const PowerLawBranch& m, const PowerLawDrive& drive, double s, const Sym& v, Sym& rate, double& heat);
+void jacobian(const PowerLawBranch& m, const PowerLawDrive& drive, double s, const Sym& v, BranchJacobian& out);
 /// J/m3.
 double stored_energy(const PowerLawBranch& m, const Sym& y);
 /// `substeps` exponential steps. Work less dissipation is the change of free energy to round-off.
