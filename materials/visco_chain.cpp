@@ -8,7 +8,7 @@ namespace {
 
 bool neo_hookean(const ChainSpring& s) { return std::isinf(s.lock_stretch); }
 
-/// Langevin function and its derivative; x > 0.1 keeps coth x - 1/x clear of cancellation.
+/// Langevin function and its derivative; x > 0.05 keeps coth x - 1/x clear of cancellation.
 double langevin_slope(double beta, double value) { return 1 - value * value - 2 * value / beta; }
 
 /// x beta - integral of x: beta dx integrated from 0.
@@ -20,7 +20,7 @@ double chain_integral(double x, double beta) {
 
 double inverse_langevin(double x) {
   const double x2 = x * x;
-  if (x < 0.1) { // the series' next term is below 1e-13
+  if (x < 0.05) { // the series' next term is below 1e-15
     return x * (3 + x2 * (9.0 / 5 + x2 * (297.0 / 175 + x2 * (1539.0 / 875 + x2 * (126117.0 / 67375 + x2 * (43733439.0 / 21896875))))));
   }
   if (!(x < 1)) {

@@ -35,12 +35,18 @@ template <class Law, class Drive> TissueIntegrator::Fast TissueIntegrator::try_f
   const bool estimated = options_.path != BranchPath::fixed;
   int n = estimated ? 1 : options_.substeps;
   FastStep step = fast_step(law, drive, start, n);
+  double before = 0;
   double estimate = estimated && options_.substeps > 1 ? 2 * options_.tolerance : 0;
   while (!(estimate <= options_.tolerance) && 2 * n <= options_.substeps) {
     n *= 2;
     const FastStep finer = fast_step(law, drive, start, n);
     const double scale = std::max(error_scale(law, finer.state.y), error_scale(law, start));
-    estimate = norm(combine(1, finer.state.y, -1, step.state.y)) / scale;
+    // What is left of a geometric series of changes; of the first its ratio is not known: 1/2. A change that is small by
+    // chance (the error changes sign) counts as a sixteenth of the one before.
+    const double change = std::max(norm(combine(1, finer.state.y, -1, step.state.y)) / scale, before / 16);
+    const double ratio = before > 0 ? std::clamp(change / before, 0.25, 0.75) : 0.5;
+    estimate = change * ratio / (1 - ratio);
+    before = change;
     step = finer;
   }
   if (!std::isfinite(contract(step.state.y, step.state.y) + step.state.dissipated)) {
