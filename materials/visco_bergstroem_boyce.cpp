@@ -112,6 +112,14 @@ double viscous_stretch(const Sym& total, const Sym& elastic) { return std::sqrt(
 
 double stored_energy(const BergstroemBoyce& m, const Sym& elastic) { return spring_energy(m.b, trace(elastic)); }
 
+double elastic_number(const BergstroemBoyce& m, const BoyceDrive& drive, const Sym& y) {
+  const Sym end = push(exponential(drive.path), y);
+  const double stretch_square = contract(cofactor(y), drive.total) / 3; // elastic motion leaves it
+  const double start_mean = trace(y) / 3, end_mean = trace(end) / 3;
+  return 2 * std::max(start_mean * flow_at(m, drive.dt, norm(deviator(y)), 3 * start_mean, stretch_square).number,
+                      end_mean * flow_at(m, drive.dt, norm(deviator(end)), 3 * end_mean, stretch_square).number);
+}
+
 double error_scale(const BergstroemBoyce& m, const Sym& y) { return std::max(norm(deviator(y)), 0.01 * m.base / m.b.shear); }
 
 void prepare(BoyceDrive& drive) {

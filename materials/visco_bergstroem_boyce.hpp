@@ -47,6 +47,8 @@ struct BoyceDrive {
   std::array<Sym, 7> square{}; ///< C(s) from the step's start, by powers of s; set by prepare
 };
 
+/// The larger relaxation number of the step's ends if nothing relaxed: bounds the share that does.
+double elastic_number(const BergstroemBoyce& m, const BoyceDrive& drive, const Sym& y);
 /// |dev b_e|, at least a hundredth of tau_base's elastic strain.
 double error_scale(const BergstroemBoyce& m, const Sym& y);
 // For CVODE: v = C_v from the step's start, v' = 2 n (C(s) - t v), t = tr(v^-1 C)/3, n = dt gdot/|dev b_e|. Elastic

@@ -17,7 +17,7 @@ namespace ballast {
 
 struct BatchOptions {
   double tolerance = 1e-4; ///< of CVODE's local error, relative to the law's error_scale
-  int batch = 64;          ///< cells, at most 4096
+  int batch = 16;          ///< cells, at most 4096
 };
 
 struct BatchCounts {

@@ -44,6 +44,9 @@ template <class Number> double solve_relaxation(Number&& number) {
   if (!(top > 1e-9)) {
     return top; // the step changes the rate by less than round-off
   }
+  if (top < 1e-3) { // each round gains a factor m x/2
+    return number(number(number(top)));
+  }
   const auto gap = [&](double u) { return std::clamp(std::log(number(std::exp(u))) - u, -60.0, 60.0); };
   double high = std::log(top), g_high = gap(high);
   for (int k = 0; k < 40 && g_high > 0; ++k) { // number grew: s_n opposes the strain

@@ -36,7 +36,10 @@ template <class Law, class Drive> TissueIntegrator::Fast TissueIntegrator::try_f
   int n = estimated ? 1 : options_.substeps;
   FastStep step = fast_step(law, drive, start, n);
   double before = 0;
-  double estimate = estimated && options_.substeps > 1 ? 2 * options_.tolerance : 0;
+  double estimate = estimated ? elastic_number(law, drive, start) : 0;
+  if (estimate > 0.1 * options_.tolerance) {
+    estimate = std::max(estimate, 2 * options_.tolerance);
+  }
   while (!(estimate <= options_.tolerance) && 2 * n <= options_.substeps) {
     n *= 2;
     const FastStep finer = fast_step(law, drive, start, n);

@@ -1,7 +1,8 @@
 // One step of a row of tissue: each nonlinear branch by the fast path where its own error estimate allows, else by CVODE.
 //
 // Estimate: the change from n/2 to n exponential substeps, n = 2, 4, 8, by the law's error_scale, extrapolated by the ratio
-// of the last two changes (1/4 where the step is resolved, more where it is stiff). What no n brings below
+// of the last two changes (1/4 where the step is resolved, more where it is stiff). Cells that relax by less than a tenth
+// of the tolerance take one substep. Errors are relative to the larger of |s| at the step's ends. What no n brings below
 // the tolerance goes to CVODE together with its like in the row (mixed), or is counted (adaptive).
 #pragma once
 

@@ -44,6 +44,11 @@ void jacobian(const PowerLawBranch& m, const PowerLawDrive& drive, double, const
 
 double error_scale(const PowerLawBranch& m, const Sym& y) { return std::max(norm(y), 0.01 * m.reference); }
 
+double elastic_number(const PowerLawBranch& m, const PowerLawDrive& drive, const Sym& y) {
+  const Sym end = combine(1, y, 1, drive.pull); // |s|^2 is largest at one of the ends
+  return relaxation_number(m, drive.dt, std::max(contract(y, y), contract(end, end)));
+}
+
 double stored_energy(const PowerLawBranch& m, const Sym& y) { return contract(y, y) / (4 * m.shear); }
 
 FastStep fast_step(const PowerLawBranch& m, const PowerLawDrive& drive, const Sym& y, int substeps) {

@@ -49,6 +49,8 @@ inline Sym to_variables(const PowerLawDrive&, const Sym& y) { return y; }
 inline Sym from_variables(const PowerLawDrive&, double, const Sym& v) { return v; }
 void rate(const PowerLawBranch& m, const PowerLawDrive& drive, double s, const Sym& v, Sym& rate, double& heat);
 void jacobian(const PowerLawBranch& m, const PowerLawDrive& drive, double s, const Sym& v, BranchJacobian& out);
+/// Largest relaxation number along the step if nothing relaxed: bounds the share that does.
+double elastic_number(const PowerLawBranch& m, const PowerLawDrive& drive, const Sym& y);
 /// J/m3.
 double stored_energy(const PowerLawBranch& m, const Sym& y);
 /// `substeps` exponential steps. Work less dissipation is the change of free energy to round-off.
