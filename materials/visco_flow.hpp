@@ -47,8 +47,11 @@ template <class Number> double solve_relaxation(Number&& number) {
   if (top < 1e-3) { // each round gains a factor m x/2
     return number(number(number(top)));
   }
-  const auto gap = [&](double u) { return std::clamp(std::log(number(std::exp(u))) - u, -60.0, 60.0); };
-  double high = std::log(top), g_high = gap(high);
+  const auto gap = [&](double u) {
+    const double n = number(std::exp(u));
+    return n > 1e-300 ? std::clamp(std::log(n) - u, -60.0, 60.0) : n <= 1e-300 ? -60.0 : n; // the last: no number
+  };
+  double high = std::min(std::log(top), 60.0), g_high = gap(high);
   for (int k = 0; k < 40 && g_high > 0; ++k) { // number grew: s_n opposes the strain
     high += 1;
     g_high = gap(high);
