@@ -174,7 +174,8 @@ double frame_error(const BergstroemBoyce& law, const TissueOptions& options, int
 
 TEST(BergstroemBoyce, IsObjective) {
   // f carries any turn exactly; only the path inside a step, exp(s log f), sees a turn that comes with a strain: second order.
-  const double coarse = frame_error(tissue_boyce(), by_path(BranchPath::fixed, 2), 100), fine = frame_error(tissue_boyce(), by_path(BranchPath::fixed, 2), 200);
+  const TissueOptions two = by_path(BranchPath::fixed, 2);
+  const double coarse = frame_error(tissue_boyce(), two, 100), fine = frame_error(tissue_boyce(), two, 200);
   EXPECT_LT(coarse, 1e-3); // 0.04 rad a step
   EXPECT_NEAR(coarse / fine, 4, 0.5);
   BergstroemBoyce elastic = tissue_boyce();
