@@ -2,7 +2,8 @@
 //
 // A batch of cells is one system of 7 variables a cell over the unit step; its matrix is one block a cell (a multiple of
 // the unit matrix and two dyads), solved where it is needed, and its error is that of its worst cell (a mean over the
-// batch would dilute one hot cell). CVODE starts anew for every batch: results depend on the cells of the batch, not on history, threads or order. Cost: docs/viscoelasticity.md.
+// batch would dilute one hot cell). CVODE starts anew for every batch: results depend on the cells of the batch, not on
+// history, threads or order. Cost: docs/viscoelasticity.md.
 // Hindmarsh et al., ACM TOMS 31 (2005) 363.
 #pragma once
 
