@@ -112,6 +112,15 @@ template <class Law> Result run(const Law& law, const Case& c, const TissueOptio
   return result;
 }
 
+/// The fastest of three.
+template <class Law> Result best(const Law& law, const Case& c, const TissueOptions& options) {
+  Result result = run(law, c, options);
+  for (int again = 0; again < 2; ++again) {
+    result.microseconds = std::min(result.microseconds, run(law, c, options).microseconds);
+  }
+  return result;
+}
+
 /// Largest and root mean square, over the stress of each, at least a hundredth of the largest there is.
 void print_errors(const Result& got, const Result& exact) {
   double largest = 0, worst = 0, sum = 0;
@@ -141,7 +150,7 @@ template <class Law> void speed_against_error(const char* name, const Law& law, 
   const Result exact = run(law, c, options_of(BranchPath::cvode, 1, 1, 1e-10, 1));
   for (const int batch : {1, 16, 64, 256}) {
     for (const double rtol : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
-      const Result got = run(law, c, options_of(BranchPath::cvode, 1, 1, rtol, batch));
+      const Result got = best(law, c, options_of(BranchPath::cvode, 1, 1, rtol, batch));
       std::printf("cvode %.0e batch %-10d ", rtol, batch);
       print_errors(got, exact);
       std::printf("  %.1f\n", static_cast<double>(got.counts.cvode.steps) / static_cast<double>(got.counts.cvode.batches));
@@ -149,11 +158,11 @@ template <class Law> void speed_against_error(const char* name, const Law& law, 
   }
   for (const int n : {1, 2, 4, 8}) {
     std::printf("fast, %d substeps            ", n);
-    print_errors(run(law, c, options_of(BranchPath::fixed, n, 1, 1e-4, 64)), exact);
+    print_errors(best(law, c, options_of(BranchPath::fixed, n, 1, 1e-4, 64)), exact);
     std::printf("\n");
   }
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
-    const Result got = run(law, c, options_of(BranchPath::mixed, 8, tolerance, 0.1 * tolerance, 64));
+    const Result got = best(law, c, options_of(BranchPath::mixed, 8, tolerance, 0.1 * tolerance, 64));
     std::printf("mixed, tolerance %.0e       ", tolerance);
     print_errors(got, exact);
     const auto& f = got.counts.fast;
@@ -171,15 +180,18 @@ template <class Law> void speed_against_error(const char* name, const Law& law, 
 template <class Law> void time_linear(const char* name, const Law& law, std::size_t cells) {
   Rows r(law, cells);
   set_gradients(r, cells, 0, 4, 1e-7, 1e-6);
-  const std::clock_t start = std::clock();
   const int steps = 200;
-  for (int k = 0; k < steps; ++k) {
-    for (ViscoRow& row : r.rows) {
-      row.dt = 1e-7;
-      advance(law, row);
+  double seconds = 1e30;
+  for (int again = 0; again < 3; ++again) {
+    const std::clock_t start = std::clock();
+    for (int k = 0; k < steps; ++k) {
+      for (ViscoRow& row : r.rows) {
+        row.dt = 1e-7;
+        advance(law, row);
+      }
     }
+    seconds = std::min(seconds, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::printf("%s: %.3f us a cell-step\n", name, 1e6 * seconds / (steps * static_cast<double>(cells)));
 }
 
