@@ -82,9 +82,9 @@ TEST(BergstroemBoyce, MixedPathKeepsItsTolerance) {
 TEST(BergstroemBoyce, BothPathsAgreeOverStepsOfAThousandRelaxationTimes) {
   for (const BergstroemBoyce& law : {tissue_boyce(), elastomer_boyce()}) {
     for (const double strain : {0.0, 1e-3, 0.05}) {
-      Points cvode(law, 1), fast(law, 1);
-      TissueIntegrator by_cvode(by_path(BranchPath::cvode)), by_fast(by_path(BranchPath::fixed, 8));
-      for (Points* p : {&cvode, &fast}) { // a jump to a state that relaxes at once
+      Points cvode(law, 1), fast(law, 1), mixed(law, 1);
+      TissueIntegrator by_cvode(by_path(BranchPath::cvode)), by_fast(by_path(BranchPath::fixed, 8)), by_mix(by_path(BranchPath::mixed, 8, 1e-3));
+      for (Points* p : {&cvode, &fast, &mixed}) { // a jump to a state that relaxes at once
         p->move(0, midpoint_gradient(unit_mat, product(sheared(0.4), stretched(1.2))), 1e-30);
         ASSERT_FALSE(by_cvode.advance(law, p->row));
       }
@@ -92,11 +92,13 @@ TEST(BergstroemBoyce, BothPathsAgreeOverStepsOfAThousandRelaxationTimes) {
       // dln|s|/dt at the start is 2 gdot mean/|dev b_e|.
       const double q = norm(deviator(start)), s = spring_modulus(law.b, trace(start)).value * q;
       const double rate = 2 * std::pow(law.start, law.stretch_power) * std::pow(s / law.base, law.exponent) / q * trace(start) / 3;
-      for (Points* p : {&cvode, &fast}) {
+      for (Points* p : {&cvode, &fast, &mixed}) {
         p->move(0, midpoint_gradient(unit_mat, stretched(1 + strain)), 1000 / rate);
       }
       ASSERT_FALSE(by_cvode.advance(law, cvode.row));
       ASSERT_FALSE(by_fast.advance(law, fast.row));
+      ASSERT_FALSE(by_mix.advance(law, mixed.row));
+      EXPECT_LT(difference(mixed.state_of(6, 0), cvode.state_of(6, 0)), 1e-3 * q) << strain;
       const Sym a = cvode.state_of(6, 0), b = fast.state_of(6, 0);
       // No overshoot, and what is left agrees: the fast path's error at this step is a few hundredths of where it began.
       EXPECT_LT(norm(deviator(b)), q);
