@@ -6,8 +6,8 @@ ballast_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 ballast_preset=release
 ballast_build="$ballast_root/build/$ballast_preset"
 
-# What find_package and the includes ask for. SUNDIALS (tissue viscoelasticity) is installed but not
-# linked as yet; the font is for the report's pictures, which are drawn without an X server.
+# What find_package and the includes ask for. SUNDIALS integrates the stiff viscoelastic tissue; the
+# font is for the report's pictures, which are drawn without an X server.
 ballast_packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev libsundials-dev libhdf5-dev libvtk9-dev
