@@ -14,14 +14,14 @@ using enum InjuryMeasure;
 
 std::string filter_name(int cfc) { return fmt::format("CFC{}", cfc); }
 
+/// From 0 on: without a sample that way it is 0.
 BothWays both_ways(std::span<const double> samples, double interval, double start) {
-  BothWays peaks = {largest_of(samples, interval, start), {}};
-  std::vector<double> turned(samples.begin(), samples.end());
-  for (double& value : turned) {
-    value = -value;
+  BothWays peaks;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const Peak now = {samples[k], start + interval * static_cast<double>(k)};
+    peaks.along = now.value > peaks.along.value ? now : peaks.along;
+    peaks.against = now.value < peaks.against.value ? now : peaks.against;
   }
-  const Peak against = largest_of(turned, interval, start);
-  peaks.against = {-against.value, against.time};
   return peaks;
 }
 
