@@ -39,7 +39,7 @@ struct TwoPoles {
 };
 
 /// Sample k of a record that goes on for ever, turned by half a turn about each end.
-double beyond(std::span<const double> x, long k) {
+double turned(std::span<const double> x, long k) {
   const long last = static_cast<long>(x.size()) - 1, period = 2 * last;
   const long turns = (k >= 0 ? k : k - period + 1) / period, r = k - turns * period;
   const double rise = x.back() - x.front();
@@ -47,15 +47,21 @@ double beyond(std::span<const double> x, long k) {
   return here + 2 * static_cast<double>(turns) * rise;
 }
 
+/// Sample k of a record that begins at rest and is mirrored at its end.
+double from_rest(std::span<const double> x, long k) {
+  const long last = static_cast<long>(x.size()) - 1, at = k <= last ? k : 2 * last - k;
+  return at < 0 ? 0.0 : x[static_cast<std::size_t>(at)];
+}
+
 } // namespace
 
 double longest_interval(int cfc) { return 1 / (samples_a_class * cfc); }
 
-std::vector<double> cfc_filtered(std::span<const double> samples, double interval, int cfc) {
+std::vector<double> cfc_filtered(std::span<const double> samples, double interval, int cfc, RecordEnds ends) {
   if (!(interval > 0) || interval > longest_interval(cfc) * (1 + 1e-12)) {
     throw Error(fmt::format("samples {:g} s apart are too few for a CFC {} filter; at most {:g} s", interval, cfc, longest_interval(cfc)));
   }
-  if (samples.size() < 2) {
+  if (samples.empty() || (samples.size() == 1 && ends == RecordEnds::turned)) {
     return {samples.begin(), samples.end()};
   }
   const auto lead = static_cast<long>(std::ceil(lead_in / (cfc * interval)));
@@ -63,7 +69,7 @@ std::vector<double> cfc_filtered(std::span<const double> samples, double interva
   std::vector<double> x;
   x.reserve(static_cast<std::size_t>(count + 2 * lead));
   for (long k = -lead; k < count + lead; ++k) {
-    x.push_back(beyond(samples, k));
+    x.push_back(ends == RecordEnds::turned ? turned(samples, k) : from_rest(samples, k));
   }
   const TwoPoles filter(interval, cfc);
   filter.pass(x.begin(), x.end());

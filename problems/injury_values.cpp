@@ -54,7 +54,7 @@ template <int Dim> void chest_values(const InjurySpec& in, const InjuryRecord<Di
 /// Force of the materials of `force_on` by a filter, N, between samples.
 template <int Dim> std::vector<double> filtered_force(const InjuryRecord<Dim>& record, int cfc) {
   const double h = record.record().interval();
-  return cfc_filtered(rates(record.momentum(), h), h, cfc);
+  return cfc_filtered(rates(record.momentum(), h), h, cfc, RecordEnds::from_rest);
 }
 
 void impact_values(const SceneSpec& scene, const StartOfRun& start, std::vector<InjuryValue>& values) {
@@ -118,7 +118,7 @@ template <int Dim> std::map<std::string, BothWays> peak_accelerations(const Scen
   all["recorded"] = both_ways(a, h, 0.5 * h);
   all["sampled"] = both_ways(every(a, stride), in.sample_every, 0.5 * h);
   for (const int cfc : in.filters) {
-    all[filter_name(cfc)] = both_ways(cfc_filtered(a, h, cfc), h, 0.5 * h);
+    all[filter_name(cfc)] = both_ways(cfc_filtered(a, h, cfc, RecordEnds::from_rest), h, 0.5 * h);
   }
   return all;
 }
@@ -144,7 +144,7 @@ template <int Dim> std::vector<std::string> injury_warnings(const SceneSpec& sce
       all.push_back(fmt::format("steps of up to {:g} s are too long for CFC {}: at most {:g} s", record.record().longest_step(), cfc, longest_interval(cfc)));
     }
     if (filtered && length * cfc < 1) {
-      all.push_back(fmt::format("{:g} s of record are less than 1 / CFC {}: its peaks depend on how the record's ends are continued", length, cfc));
+      all.push_back(fmt::format("{:g} s of record are less than 1 / CFC {}: its peaks depend on how the record goes on beyond its end", length, cfc));
     }
   }
   if (!in.impactor.empty() && in.impactor_energy == 0 && !scene.layers.empty()) {

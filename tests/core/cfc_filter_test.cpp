@@ -102,6 +102,25 @@ TEST(CfcFilter, RunsTheSameBothWays) {
   }
 }
 
+TEST(CfcFilter, ImpactAtTheStartIsFilteredAsAnyOther) {
+  constexpr std::size_t count = 12000, middle = 6000; // 6 / CFC on either side
+  std::vector<double> first(count, 0.0), later(count, 0.0);
+  for (std::size_t k = 0; k < 40; ++k) {
+    first[k] = later[middle + k] = 1e6 * (1 + 0.5 * std::sin(static_cast<double>(k)));
+  }
+  const std::vector<double> a = cfc_filtered(first, 1e-6, 1000, RecordEnds::from_rest), b = cfc_filtered(later, 1e-6, 1000, RecordEnds::from_rest);
+  for (std::size_t k = 0; k < middle; ++k) {
+    EXPECT_NEAR(a[k], b[middle + k], 1e-6);
+  }
+  EXPECT_LT(*std::max_element(a.begin(), a.end()), 0.3 * first[0]); // 40 us are short for 1650 Hz
+}
+
+TEST(CfcFilter, AtTheEndALevelGoesOn) {
+  std::vector<double> step(9000, 0.0);
+  std::fill(step.begin() + 4500, step.end(), 2.0); // 4.5 / CFC before the end
+  EXPECT_NEAR(cfc_filtered(step, 1e-6, 1000, RecordEnds::from_rest).back(), 2.0, 1e-9);
+}
+
 TEST(CfcFilter, RefusesSamplesTooFarApart) {
   const std::vector<double> x(100, 1.0);
   EXPECT_NO_THROW(cfc_filtered(x, 1e-4, 1000));
