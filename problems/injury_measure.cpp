@@ -44,15 +44,28 @@ template <int Dim> PressurePeak highest_in_row(const Block<Dim>& b, const TileSt
   return peak;
 }
 
+/// Velocity along an axis of what a slot holds, for the nodes of a row of nodes from `begin` to `end`.
+template <int Dim> void node_velocities(const Block<Dim>& b, const MaterialSlot& slot, std::size_t axis, int row, Span nodes, double* out) {
+  const double* u = b.velocity[axis].row(row);
+  for (int i = nodes.begin; i < nodes.end; ++i) {
+    out[i] = b.any_sliding() ? velocity_of(b, slot.slides, axis, row, i) : u[i];
+  }
+}
+
 template <int Dim> double momentum_in_row(const Block<Dim>& b, const MaterialSlot& slot, std::size_t axis, int j, int k) {
   const int r = b.grid.cell_row(j, k);
   const Span cells = slot.store.has_row(r) ? b.awake.cells(r) : Span{}; // the others rest
+  if (cells.empty()) {
+    return 0;
+  }
+  const double* mass = slot.store.row(field::mass, r);
+  std::vector<double> u(static_cast<std::size_t>(b.grid.cells[0]) + 1);
   double sum = 0;
-  for (int i = cells.begin; i < cells.end; ++i) {
-    const double mass = slot.store.row(field::mass, r)[i];
-    for (int corner = 0; mass > 0 && corner < (1 << Dim); ++corner) {
-      const int node = b.grid.node_row(j + (corner >> 1 & 1), k + (corner >> 2 & 1));
-      sum += mass * corner_share(b, corner, i, j, k) * velocity_of(b, slot.slides, axis, node, i + (corner & 1));
+  for (int side = 0; side < (1 << (Dim - 1)); ++side) { // the rows of nodes around the row of cells
+    node_velocities(b, slot, axis, b.grid.node_row(j + (side & 1), k + (side >> 1)), {cells.begin, cells.end + 1}, u.data());
+    for (int i = cells.begin; i < cells.end; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      sum += mass[i] > 0 ? mass[i] * (corner_share(b, 2 * side, i, j, k) * u[n] + corner_share(b, 2 * side + 1, i, j, k) * u[n + 1]) : 0.0;
     }
   }
   return sum;

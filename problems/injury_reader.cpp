@@ -271,7 +271,9 @@ void read_injury(Deck& deck, DeckNode& node, SceneSpec& scene) {
   injury.force_on = listed_materials(deck, in.node("force_on"), scene);
   read_impactor(deck, in, scene, injury);
   if (DeckNode* list = in.node("force_on")) {
-    knows_whole_mass(deck, *list, scene, "no `force_on`, or another mesh");
+    if (knows_whole_mass(deck, *list, scene, "no `force_on`, or another mesh") && in.has("filters") && injury.filters.empty()) {
+      deck.fail_key(*list, "is a force that no filter is left for", "at least one of `filters`");
+    }
   }
   check_asked(deck, node);
   scene.injury = injury;
