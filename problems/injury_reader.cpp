@@ -57,11 +57,11 @@ void fail_name(Deck& deck, DeckNode& node, const std::string& what, const std::v
 
 /// A gauge of the deck that rides, -1 (and an error) if it is none.
 int riding_gauge(Deck& deck, DeckNode* node, const SceneSpec& scene) {
-  const Names gauges = gauge_names(scene);
-  const int found = node != nullptr ? gauges.find(node->text) : -1;
   if (node == nullptr) {
     return -1;
   }
+  const Names gauges = gauge_names(scene);
+  const int found = gauges.find(node->text);
   if (found < 0 && !declared(deck, "gauge", node->text)) {
     fail_name(deck, *node, "gauge", gauges.all);
   } else if (found >= 0 && !scene.gauges[static_cast<std::size_t>(found)].rides) {
@@ -138,7 +138,7 @@ void read_intervals(Deck& deck, const Section& in, const SceneSpec& scene, Injur
   } else if (scene.end_time / injury.record_every > most_samples) {
     deck.fail(*record, fmt::format("{:.3g} samples up to the end", scene.end_time / injury.record_every), fmt::format("at least {:g} s: a million samples", scene.end_time / most_samples));
   } else if (strides < 0.999 || std::abs(strides - std::round(strides)) > 1e-6 * strides) {
-    deck.fail(*sample, fmt::format("{:g} s is no multiple of record_every, {:g} s", injury.sample_every, injury.record_every), "a whole number of recorded intervals");
+    deck.fail(sample->defaulted ? *record : *sample, fmt::format("sample_every, {:g} s, is no multiple of record_every, {:g} s", injury.sample_every, injury.record_every), "a whole number of recorded intervals to a sample");
   }
 }
 
@@ -272,7 +272,7 @@ void read_injury(Deck& deck, DeckNode& node, SceneSpec& scene) {
   read_impactor(deck, in, scene, injury);
   if (DeckNode* list = in.node("force_on")) {
     if (knows_whole_mass(deck, *list, scene, "no `force_on`, or another mesh") && in.has("filters") && injury.filters.empty()) {
-      deck.fail_key(*list, "is a force that no filter is left for", "at least one of `filters`");
+      deck.fail_key(*list, "needs a filter, and `filters` is empty", "at least one, such as `filters = [\"CFC1000\"]`");
     }
   }
   check_asked(deck, node);

@@ -81,6 +81,7 @@ rides = true
 sternum = "sternum"
 spine = "spine"
 chest_depth = "14 mm"
+back_face = "sternum"
 accelerometers = ["sternum", "spine"]
 record_every = "0.25 us"
 sample_every = "2 us"
