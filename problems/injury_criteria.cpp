@@ -1,5 +1,6 @@
 #include "problems/injury_criteria.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -14,6 +15,28 @@ constexpr double crash_scale = 1.3, crash_depth = 0.229; // Hybrid III 50th perc
 double resistance(const BluntImpact& i) {
   return std::cbrt(i.body_mass) * (i.wall_thickness / cm) * (i.diameter / cm);
 }
+
+/// Axelsson and Yelverton's chest wall, SI.
+struct ChestWall {
+  static constexpr double mass = 2.03, damping = 696, stiffness = 989, area = 0.082, gas = 1.82e-3, exponent = 1.2, ambient = 101325;
+  double x = 0, v = 0;
+
+  static double acceleration(double x, double v, double p) {
+    const double squeezed = std::pow(gas / std::max(gas - area * x, 0.01 * gas), exponent); // a trial may go too far
+    return (area * (p + ambient - ambient * squeezed) - damping * v - stiffness * x) / mass;
+  }
+  /// Runge and Kutta's four stages under a pressure that goes from p0 to p1.
+  void step(double h, double p0, double p1) {
+    const double pm = 0.5 * (p0 + p1);
+    const double a1 = acceleration(x, v, p0), v2 = v + 0.5 * h * a1, a2 = acceleration(x + 0.5 * h * v, v2, pm);
+    const double v3 = v + 0.5 * h * a2, a3 = acceleration(x + 0.5 * h * v2, v3, pm);
+    const double v4 = v + h * a3, a4 = acceleration(x + h * v3, v4, p1);
+    x += h * (v + 2 * v2 + 2 * v3 + v4) / 6;
+    v += h * (a1 + 2 * a2 + 2 * a3 + a4) / 6;
+  }
+  /// Lung all but gone: the law ends here, and the wall was faster before.
+  bool spent() const { return area * x > 0.9 * gas; }
+};
 
 std::string thresholds_text(const InjuryCriterion& c) {
   std::string text;
@@ -55,6 +78,11 @@ const std::vector<InjuryCriterion>& injury_criteria() {
       {energy_density, "energy_density", "energy over area", "E / (pi D^2 / 4)", "J/cm2",
        {{23.99, "50 % penetration of the skin, anterior thorax", "R"}},
        "Bir et al. 2005, 2012", "R", "blunt projectiles on bare skin"},
+      {chest_wall_velocity, "chest_wall_velocity", "chest wall velocity in blast (Axelsson, Yelverton)", "mean over the gauges of the largest x' of M x'' + J x' + K x = A (p + P0 - P0 (V0 / (V0 - A x))^g), M 2.03 kg, J 696 N s/m, K 989 N/m, A 0.082 m2, V0 1.82e-3 m3, g 1.2, P0 101325 Pa", "m/s",
+       {{3.6, "trace to slight from here on", "K1"}, {7.5, "moderate to extensive from here on", "K1"}, {12.8, "more than 50 % lethality", "K1"}},
+       "Axelsson and Yelverton 1996", "K1", "blast on a rigid cylinder's four gauges in the open or a room; not for a bullet behind a vest, and not for gauges on a wall that gives way"},
+      {blast_injury_index, "adjusted_severity_of_injury_index", "ASII in blast", "(0.124 + 0.117 V)^2.63, V in m/s", "1", {},
+       "Axelsson and Yelverton 1996", "K1", "as the chest wall velocity it is made of"},
       {peak_acceleration, "peak_acceleration", "peak acceleration", "largest mean over an interval, raw, sampled, and filtered by SAE J211-1 CFC", "m/s2", {},
        "SAE J211-1, ISO 6487", "R-2nd", "no threshold is accepted; acceleration of the chest wall is a poor sign of what the lung feels (Bush and Challener, IRCOBI 1989); the raw peak grows as cells shrink"},
       {peak_pressure, "peak_pressure", "peak pressure of an organ", "largest pressure of any cell that the material fills to half or more", "Pa", {},
@@ -104,6 +132,18 @@ double four_parameter_lethality(const BluntImpact& impact) {
   const double mass_speed_squared = 2 * impact.energy * grams_of_kilogram; // g m2/s2
   return 1 / (1 + std::exp(34.13 - 3.597 * std::log(mass_speed_squared / resistance(impact))));
 }
+
+Peak chest_wall_response(std::span<const double> overpressure, double interval) {
+  Peak peak;
+  ChestWall wall;
+  for (std::size_t k = 1; k < overpressure.size() && !wall.spent(); ++k) {
+    wall.step(interval, overpressure[k - 1], overpressure[k]);
+    peak = wall.v > peak.value ? Peak{wall.v, interval * static_cast<double>(k)} : peak;
+  }
+  return peak;
+}
+
+double adjusted_severity(double chest_wall_velocity) { return std::pow(0.124 + 0.117 * chest_wall_velocity, 2.63); }
 
 double energy_density(double energy, double diameter) {
   const double radius = 0.5 * diameter / cm;

@@ -22,6 +22,8 @@ enum class InjuryMeasure {
   four_parameter,
   impact_force,
   energy_density,
+  chest_wall_velocity,
+  blast_injury_index,
   peak_acceleration,
   peak_pressure
 };
@@ -82,6 +84,12 @@ double body_wall_thickness(double body_mass);
 double blunt_criterion(const BluntImpact& impact);
 /// P = 1 / (1 + exp(34.13 - 3.597 ln(M V^2 / (W^(1/3) T D)))), M in g, V in m/s, W in kg, T and D in cm. Clare et al. 1975.
 double four_parameter_lethality(const BluntImpact& impact);
+/// Largest inward velocity of the chest wall, m/s, under a pressure over the ambient one (Pa) at equal intervals (s); time from the
+/// first sample. Axelsson and Yelverton 1996, a man of 70 kg, one lung, wall and gas as springs around it:
+///   M x'' + J x' + K x = A (p(t) + P0 - P0 (V0 / (V0 - A x))^g).
+Peak chest_wall_response(std::span<const double> overpressure, double interval);
+/// ASII = (0.124 + 0.117 V)^2.63 of the mean of those velocities at the gauges, m/s. The same source.
+double adjusted_severity(double chest_wall_velocity);
 /// Energy over the area of a circle, J/cm2.
 double energy_density(double energy, double diameter);
 

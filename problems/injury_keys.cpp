@@ -24,6 +24,7 @@ const SectionSpec& injury() {
        {.name = "sample_every", .kind = quantity, .doc = "accelerations are reported once more as points so far apart, as a recorder takes them (20 us: 50 kHz); a multiple of `record_every`", .dimension = Dimension::time, .range = positive(), .fallback = "20 us"},
        {.name = "organs", .kind = texts, .doc = "materials whose peak pressure is reported, with time and place"},
        {.name = "force_on", .kind = texts, .doc = "materials that together are the body: the rate of their momentum along the shot is the impact force; not planar"},
+       {.name = "blast_gauges", .kind = texts, .doc = "gauges whose pressure over the ambient one loads a chest wall in blast: its velocity, mean over them (four around a rigid cylinder in the original), and ASII"},
        {.name = "impactor", .kind = texts, .doc = "bodies whose energy at the start and diameter go into blunt criterion, four-parameter lethality and energy over area; not planar"},
        {.name = "impactor_energy", .kind = quantity, .doc = "instead of that of the bodies: of what hits the body, behind a vest not the bullet's", .dimension = Dimension::energy, .range = positive()},
        {.name = "impactor_diameter", .kind = quantity, .doc = "likewise", .dimension = Dimension::length, .range = positive()},

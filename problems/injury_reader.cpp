@@ -120,6 +120,22 @@ void read_accelerations(Deck& deck, const Section& in, SceneSpec& scene, InjuryS
   }
 }
 
+/// Gauges of any kind, each once.
+void read_blast(Deck& deck, DeckNode* list, const SceneSpec& scene, InjurySpec& injury) {
+  const Names gauges = gauge_names(scene);
+  for (std::size_t k = 0; list != nullptr && k < list->items.size(); ++k) {
+    DeckNode& item = list->items[k];
+    const int gauge = gauges.find(item.text);
+    if (std::find(injury.blast.begin(), injury.blast.end(), gauge) != injury.blast.end()) {
+      deck.fail(item, fmt::format("\"{}\" is listed twice", item.text), "each gauge once");
+    } else if (gauge >= 0) {
+      injury.blast.push_back(gauge);
+    } else if (!declared(deck, "gauge", item.text)) {
+      fail_name(deck, item, "gauge", gauges.all);
+    }
+  }
+}
+
 /// A record coarse enough to keep, fine enough to filter.
 void read_intervals(Deck& deck, const Section& in, const SceneSpec& scene, InjurySpec& injury) {
   injury.record_every = in.number("record_every", injury.record_every);
@@ -236,7 +252,7 @@ void read_impactor(Deck& deck, const Section& in, SceneSpec& scene, InjurySpec& 
 void check_asked(Deck& deck, DeckNode& node) {
   const std::vector<std::string> how = {"direction", "filters", "record_every", "sample_every"};
   if (std::all_of(node.fields.begin(), node.fields.end(), [&](const auto& field) { return std::find(how.begin(), how.end(), field.first) != how.end(); })) {
-    deck.fail_key(node, "asks for nothing", "`sternum`, `back_face`, `accelerometers`, `organs`, `force_on` or `impactor`, or no [injury]");
+    deck.fail_key(node, "asks for nothing", "`sternum`, `back_face`, `accelerometers`, `organs`, `force_on`, `blast_gauges` or `impactor`, or no [injury]");
   }
 }
 
@@ -266,6 +282,7 @@ void read_injury(Deck& deck, DeckNode& node, SceneSpec& scene) {
   read_chest(deck, in, scene, injury);
   read_back_face(deck, in.node("back_face"), scene, injury);
   read_accelerations(deck, in, scene, injury);
+  read_blast(deck, in.node("blast_gauges"), scene, injury);
   read_intervals(deck, in, scene, injury);
   injury.organs = listed_materials(deck, in.node("organs"), scene);
   injury.force_on = listed_materials(deck, in.node("force_on"), scene);

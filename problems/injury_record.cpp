@@ -43,7 +43,7 @@ template <int Dim> InjuryRecord<Dim>::InjuryRecord(const SceneSpec& scene, const
   for (const int material : in.force_on) {
     force_slots_.push_back(slots_[static_cast<std::size_t>(material)]);
   }
-  const std::size_t columns = 2 * sites_.size() + (force_slots_.empty() ? 0 : 1);
+  const std::size_t columns = 2 * sites_.size() + (force_slots_.empty() ? 0 : 1) + in.blast.size();
   last_.resize(columns, 0.0);
   record_ = UniformRecord(in.record_every, columns);
 }
@@ -82,6 +82,11 @@ template <int Dim> void InjuryRecord<Dim>::step(const Scene<Dim>& scene, double 
   }
   if (!force_slots_.empty()) {
     now.push_back(in.direction * in.copies * material_momentum(b, force_slots_, in.axis, *scene.pool));
+  }
+  for (const int gauge : in.blast) {
+    const auto q = 3 * static_cast<std::size_t>(gauge);
+    const auto cell = find_cell(b, {gauges[q], gauges[q + 1], gauges[q + 2]});
+    now.push_back(b.pressure.row(b.grid.cell_row(cell[1], cell[2]))[cell[0]] + b.reference_pressure - spec_.ambient_pressure);
   }
   for (std::size_t s = 0; s < sites_.size() && time > time_; ++s) {
     const double acceleration = (now[2 * s + 1] - last_[2 * s + 1]) / (time - time_);

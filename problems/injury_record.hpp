@@ -47,6 +47,8 @@ public:
   const std::vector<double>& velocity(int gauge) const { return record_.column(2 * site_of(gauge) + 1); }
   /// Of the materials of `force_on`, all copies, kg m/s.
   const std::vector<double>& momentum() const { return record_.column(2 * sites_.size()); }
+  /// Over the ambient one, of the `n`th of `blast_gauges`, Pa.
+  const std::vector<double>& overpressure(std::size_t n) const { return record_.column(2 * sites_.size() + (force_slots_.empty() ? 0 : 1) + n); }
   const Peak& back_face() const { return back_face_; } ///< largest deflection, m
 
   std::vector<double> memory() const;

@@ -19,6 +19,7 @@ struct InjurySpec {
   double sample_every = 20e-6;       ///< s
   std::vector<int> organs;           ///< indices into SceneSpec::materials
   std::vector<int> force_on;         ///< likewise
+  std::vector<int> blast;            ///< gauges whose pressure loads a chest wall
   std::vector<int> impactor;         ///< bodies; empty: energy and diameter are given
   double impactor_energy = 0;        ///< J; 0: of the bodies, or none asked for
   double impactor_diameter = 0;      ///< m; likewise

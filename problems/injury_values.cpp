@@ -57,6 +57,17 @@ template <int Dim> std::vector<double> filtered_force(const InjuryRecord<Dim>& r
   return cfc_filtered(rates(record.momentum(), h), h, cfc, RecordEnds::from_rest);
 }
 
+template <int Dim> void blast_values(const InjurySpec& in, const InjuryRecord<Dim>& record, std::vector<InjuryValue>& values) {
+  double mean = 0, last = 0;
+  for (std::size_t n = 0; n < in.blast.size(); ++n) {
+    const Peak peak = chest_wall_response(record.overpressure(n), record.record().interval());
+    mean += peak.value / static_cast<double>(in.blast.size());
+    last = std::max(last, peak.time);
+  }
+  values.push_back({chest_wall_velocity, mean, last});
+  values.push_back({blast_injury_index, adjusted_severity(mean), 0});
+}
+
 void impact_values(const SceneSpec& scene, const StartOfRun& start, std::vector<InjuryValue>& values) {
   const InjurySpec& in = *scene.injury;
   const BluntImpact impact = {impactor_energy(scene, start), in.impactor_diameter, in.body_mass, in.wall_thickness};
@@ -95,6 +106,9 @@ template <int Dim> std::vector<InjuryValue> injury_values(const SceneSpec& scene
   }
   if (!in.back_face.empty()) {
     values.push_back({back_face_signature, record.back_face().value, record.back_face().time});
+  }
+  if (!in.blast.empty()) {
+    blast_values(in, record, values);
   }
   if (in.has_impact()) {
     impact_values(scene, start, values);

@@ -43,6 +43,25 @@ TEST(InjuryCriteria, FourParametersGiveOneHalfWhereTheExponentVanishes) {
   EXPECT_NEAR(four_parameter_lethality(impact), 1 - 1 / (1 + std::pow(2, 3.597)), 1e-9);
 }
 
+TEST(InjuryCriteria, ChestWallUnderASmallStepIsADampedSpring) {
+  // x small: M x'' + J x' + k x = A p with k = K + g P0 A^2 / V0; x' = A p / (M w) e^(-d t) sin w t, largest where tan w t = w / d.
+  constexpr double p = 1, h = 1e-6;
+  const double k = 989 + 1.2 * 101325 * 0.082 * 0.082 / 1.82e-3, d = 696 / (2 * 2.03), w = std::sqrt(k / 2.03 - d * d), t = std::atan(w / d) / w;
+  const std::vector<double> step(10000, p);
+  const Peak peak = chest_wall_response(step, h);
+  const double exact = 0.082 * p / (2.03 * w) * std::exp(-d * t) * std::sin(w * t);
+  EXPECT_NEAR(peak.value, exact, 1e-5 * exact); // the gas law's next term: A x / V0 = 3e-6 of it
+  EXPECT_NEAR(peak.time, t, 2 * h);
+}
+
+TEST(InjuryCriteria, ChestWallOutlastsAnyPressure) {
+  const std::vector<double> load(2000, 50e6);
+  const Peak peak = chest_wall_response(load, 1e-6);
+  EXPECT_GT(peak.value, 12.8);
+  EXPECT_LT(peak.value, 50e6 * 0.082 / 2.03 * 2e-3); // free flight of the wall
+  EXPECT_NEAR(adjusted_severity(8), 1.16561, 1e-5);  // 1.06^2.63 = exp(2.63 ln 1.06)
+}
+
 TEST(InjuryCriteria, EachHasSourceMarkAndLimits) {
   int number = 0;
   for (const InjuryCriterion& c : injury_criteria()) {

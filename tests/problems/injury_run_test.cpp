@@ -82,6 +82,7 @@ sternum = "sternum"
 spine = "spine"
 chest_depth = "14 mm"
 back_face = "sternum"
+blast_gauges = ["sternum", "spine"]
 accelerometers = ["sternum", "spine"]
 record_every = "0.25 us"
 sample_every = "2 us"
