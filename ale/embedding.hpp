@@ -74,6 +74,9 @@ struct Pocket {
 /// Kinds of cells: from 0 on the number of a cut cell.
 inline constexpr int open_cell = -1, covered_cell = -2;
 
+/// Of the room that a cell's materials fill: what a body may take of it in a step of natural length beyond its motion, where its shape jumps.
+inline constexpr double most_squeeze = 0.002;
+
 template <int Dim> struct Embedding {
   int block = 0;
   /// m, by stack and node of its planes: what a body must have there not to slip through cells (ale/embed/layer_body).
@@ -90,6 +93,7 @@ template <int Dim> struct Embedding {
   double seconds = 0;                   ///< s of the clock on the wall, this run
   std::array<std::vector<char>, Dim> closed; ///< faces, at the cell above, that the remap's sweeps leave alone
   double least_width = 0;    ///< m: shortest edge of a cut cell
+  double squeeze = most_squeeze; ///< of this step
 
   std::vector<CutForce<Dim>> force; ///< by cut cell
   std::vector<Pocket> pockets;      ///< of the last remap
@@ -158,9 +162,6 @@ template <int Dim> double face_opening(const Grid& grid, const Levels<Dim>& leve
 /// Cut cells that are open by less than this share of the whole are slivers: they share their state with a root.
 inline constexpr double sliver_share = 0.5;
 
-/// Of the room that a cell's materials fill: what a body may take of it in a step beyond its motion, where its shape jumps.
-inline constexpr double most_squeeze = 0.002;
-
 /// Kinds and cut cells from levels. The same for any pool.
 template <int Dim>
 void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, ThreadPool& pool, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut);
@@ -173,6 +174,9 @@ template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e);
 
 /// Makes the block's cells hold what fits beside the bodies: once, at the start. Void gives way first.
 template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e);
+
+/// A short step squeezes less: else one that has fallen falls on by the pressure that this makes.
+template <int Dim> void set_squeeze(const Scene<Dim>& scene, Embedding<Dim>& e, double dt);
 
 /// Start of a step: levels, cut cells; void takes the room of elements that have gone.
 template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e);

@@ -252,12 +252,21 @@ template <int Dim> static bool take_room(Block<Dim>& b, Embedding<Dim>& e) {
     double& volume = b.volume.row(r)[i];
     if (std::abs(c.open - volume) > 1e-12 * c.whole) {
       const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
-      volume = std::max(c.open, (1 - most_squeeze) * (volume - parts.back()));
+      volume = std::max(c.open, (1 - e.squeeze) * (volume - parts.back()));
       set_volumes(b, r, i, volume, parts);
       changed = true;
     }
   }
   return changed;
+}
+
+template <int Dim> void set_squeeze(const Scene<Dim>& scene, Embedding<Dim>& e, double dt) {
+  double square = 0; // of the fastest material's sound speed at the start
+  for (const MaterialSlot& slot : scene.blocks[static_cast<std::size_t>(e.block)].materials) {
+    square = slot.is_void ? square : std::max(square, sound_speed_squared(slot.material.eos, slot.reference.rho, slot.reference.e));
+  }
+  const double width = 0.5 * e.bin, natural = 0.25 * width / std::sqrt(square); // s
+  e.squeeze = most_squeeze * std::min(1.0, dt / natural);
 }
 
 template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
@@ -346,7 +355,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
     const double moved = kind >= 0 ? 2 * (e.force[static_cast<std::size_t>(kind)].half.volume - e.cut[static_cast<std::size_t>(kind)].open) : 0.0;
     const double most = alone ? held * (1 + largest_jump) : std::max(old + moved, held) + largest_jump * old;
     const double pressed = kind >= 0 ? moved : -old * entered<Dim>(scene, e, b, {i, j, k});
-    const double least = (1 - most_squeeze) * std::min(old + pressed, held);
+    const double least = (1 - e.squeeze) * std::min(old + pressed, held);
     volume = open > 0 ? std::clamp(open, least, std::max({most, least, gap > 0 ? open : 0.0})) : old;
     if (kind >= 0 && is_sliver(e, b, r, i)) { // as a pure one is; a mixed one's follows
       e.cut[static_cast<std::size_t>(kind)].scaled = volume / old;
@@ -363,6 +372,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
   template void find_least_thickness<D>(const Scene<D>&, Embedding<D>&); \
   template void find_bodies<D>(Scene<D>&, Embedding<D>&); \
   template void prepare_embedding<D>(Scene<D>&, Embedding<D>&); \
+  template void set_squeeze<D>(const Scene<D>&, Embedding<D>&, double); \
   template void update_cells<D>(Scene<D>&, Embedding<D>&); \
   template void embedded_volumes<D>(Scene<D>&, Embedding<D>&);
 BALLAST_INSTANTIATE(2)
