@@ -265,7 +265,7 @@ template <int Dim> void set_squeeze(const Scene<Dim>& scene, Embedding<Dim>& e, 
   for (const MaterialSlot& slot : scene.blocks[static_cast<std::size_t>(e.block)].materials) {
     square = slot.is_void ? square : std::max(square, sound_speed_squared(slot.material.eos, slot.reference.rho, slot.reference.e));
   }
-  const double width = 0.5 * e.bin, natural = 0.25 * width / std::sqrt(square); // s
+  const double width = 0.5 * e.bin, natural = 0.05 * width / std::sqrt(square); // s
   e.squeeze = most_squeeze * std::min(1.0, dt / natural);
 }
 
