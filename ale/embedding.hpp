@@ -93,7 +93,7 @@ template <int Dim> struct Embedding {
   double seconds = 0;                   ///< s of the clock on the wall, this run
   std::array<std::vector<char>, Dim> closed; ///< faces, at the cell above, that the remap's sweeps leave alone
   double least_width = 0;    ///< m: shortest edge of a cut cell
-  double squeeze = most_squeeze; ///< of this step
+  double squeeze = most_squeeze; ///< of this step; while it begins, of the last one
 
   std::vector<CutForce<Dim>> force; ///< by cut cell
   std::vector<Pocket> pockets;      ///< of the last remap
@@ -169,13 +169,23 @@ void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, 
 /// What bodies must have where they are now not to slip through cells of the mesh that remaps lead to.
 template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<Dim>& e);
 
-/// Levels and cells anew, from nothing but where everything is: at the start of a run and of its continuation.
+/// What a step reads of the one before, beyond where everything is.
+struct EmbeddingMemory {
+  std::vector<std::vector<char>> alive; ///< Embedding::alive
+  std::vector<std::int64_t> cells;      ///< Embedding::cell_at of those that were not open
+  Span rows;                            ///< Embedding::rows
+  std::vector<Pocket> pockets;
+};
+template <int Dim> EmbeddingMemory memory_of(const Embedding<Dim>& e);
+
+/// Levels and cells anew, from where everything is: at the start of a run, and of its continuation with what it remembers.
 template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e);
+template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e, const EmbeddingMemory& memory);
 
 /// Makes the block's cells hold what fits beside the bodies: once, at the start. Void gives way first.
 template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e);
 
-/// A short step squeezes less: else one that has fallen falls on by the pressure that this makes.
+/// A step dt (s) far below the usual squeezes less: else one that has fallen falls on by the pressure that this makes.
 template <int Dim> void set_squeeze(const Scene<Dim>& scene, Embedding<Dim>& e, double dt);
 
 /// Start of a step: levels, cut cells; void takes the room of elements that have gone.

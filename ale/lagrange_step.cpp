@@ -293,7 +293,7 @@ template <int Dim> WorstCell move_cells(Scene<Dim>& scene, Block<Dim>& b) {
   return least;
 }
 
-/// Layers move and touch the blocks, whose cells then move anew. False: a cell would turn inside out; again, smaller, from layers and ledger as they were.
+/// Layers move and touch the blocks, whose cells then move anew. False: a mesh with layers inside is to take the step again, smaller, with layers and ledger as they were.
 template <int Dim> bool move_layers(Scene<Dim>& scene, const Clock& clock, bool again) {
   if (scene.layers.empty()) {
     return true;

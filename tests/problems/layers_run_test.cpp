@@ -341,6 +341,12 @@ template <int Dim> void expect_restart_goes_on(const std::string& source) {
   expect_restarts<Dim>(read_scene(text), {1, 6, 13}, [](const Scene<Dim>& scene) { return state_of(scene); });
 }
 
+/// Beside layers that tear: elements that have gone in the last step, cells set free, pockets.
+TEST(LayersRun, RestartOfATornVestGoesOnBitForBit) {
+  const ReadScene read = read_scene(std::string(BALLAST_SOURCE_DIR) + "/problems/m80_vest_tissue.toml", {"mesh.refine=0.25", "end_time=\"14 us\""});
+  expect_restarts<2>(read.scene, {60, 75, 90, 105, 120}, [](const Scene<2>& scene) { return state_of(scene); });
+}
+
 TEST(LayersRun, RestartGoesOnBitForBit) {
   expect_restart_goes_on<2>(deck(false));
   expect_restart_goes_on<3>(deck(true));
