@@ -38,15 +38,6 @@ struct TwoPoles {
   }
 };
 
-/// Sample k of a record that goes on for ever, turned by half a turn about each end.
-double turned(std::span<const double> x, long k) {
-  const long last = static_cast<long>(x.size()) - 1, period = 2 * last;
-  const long turns = (k >= 0 ? k : k - period + 1) / period, r = k - turns * period;
-  const double rise = x.back() - x.front();
-  const double here = r <= last ? x[static_cast<std::size_t>(r)] : 2 * x.back() - x[static_cast<std::size_t>(period - r)];
-  return here + 2 * static_cast<double>(turns) * rise;
-}
-
 /// Sample k of a record that begins at rest and is mirrored at its end.
 double from_rest(std::span<const double> x, long k) {
   const long last = static_cast<long>(x.size()) - 1, at = k <= last ? k : 2 * last - k;
@@ -57,19 +48,19 @@ double from_rest(std::span<const double> x, long k) {
 
 double longest_interval(int cfc) { return 1 / (samples_a_class * cfc); }
 
-std::vector<double> cfc_filtered(std::span<const double> samples, double interval, int cfc, RecordEnds ends) {
+std::vector<double> cfc_filtered(std::span<const double> samples, double interval, int cfc) {
   if (!(interval > 0) || interval > longest_interval(cfc) * (1 + 1e-12)) {
     throw Error(fmt::format("samples {:g} s apart are too few for a CFC {} filter; at most {:g} s", interval, cfc, longest_interval(cfc)));
   }
-  if (samples.empty() || (samples.size() == 1 && ends == RecordEnds::turned)) {
-    return {samples.begin(), samples.end()};
+  if (samples.empty()) {
+    return {};
   }
   const auto lead = static_cast<long>(std::ceil(lead_in / (cfc * interval)));
   const auto count = static_cast<long>(samples.size());
   std::vector<double> x;
   x.reserve(static_cast<std::size_t>(count + 2 * lead));
   for (long k = -lead; k < count + lead; ++k) {
-    x.push_back(ends == RecordEnds::turned ? turned(samples, k) : from_rest(samples, k));
+    x.push_back(from_rest(samples, k));
   }
   const TwoPoles filter(interval, cfc);
   filter.pass(x.begin(), x.end());

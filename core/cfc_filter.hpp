@@ -6,7 +6,8 @@
 //   y_k = a0 x_k + a1 x_(k-1) + a2 x_(k-2) + b1 y_(k-1) + b2 y_(k-2).
 // Both passes: |H|^2 = 1 / (1 + (tan(pi f T) / w_a)^4), -6 dB at 2.0775 CFC, -3 dB at 5/3 CFC (1650 Hz of CFC 1000), no phase.
 //
-// Compromise: the standard leaves the ends open, and what is within 1 / CFC of an end depends on how the record goes on there.
+// The standard leaves the ends open. Here the record is zero before its first sample, as are forces and accelerations before an
+// impact, and mirrored at its last. Compromise: what is within 1 / CFC of the end depends on how the record would go on.
 #pragma once
 
 #include <array>
@@ -20,13 +21,7 @@ inline constexpr std::array<int, 4> cfc_classes = {60, 180, 600, 1000};
 /// Longest interval between samples for a class, s: ten samples to 1 / CFC.
 double longest_interval(int cfc);
 
-/// How a record goes on beyond its ends.
-enum class RecordEnds {
-  turned,   ///< by half a turn about its first and its last sample: a constant and a ramp pass unchanged, the ends stay
-  from_rest ///< zero before the first sample, as of forces and accelerations before an impact; mirrored at the last
-};
-
 /// Filtered samples, as many as given. `interval` in s. Throws Error where it is too long for the class.
-std::vector<double> cfc_filtered(std::span<const double> samples, double interval, int cfc, RecordEnds ends = RecordEnds::turned);
+std::vector<double> cfc_filtered(std::span<const double> samples, double interval, int cfc);
 
 } // namespace ballast

@@ -34,7 +34,7 @@ struct ChestWall {
     x += h * (v + 2 * v2 + 2 * v3 + v4) / 6;
     v += h * (a1 + 2 * a2 + 2 * a3 + a4) / 6;
   }
-  /// Lung all but gone: the law ends here, and the wall was faster before.
+  /// Lung all but gone: the law ends here.
   bool spent() const { return area * x > 0.9 * gas; }
 };
 
@@ -58,15 +58,15 @@ const std::vector<InjuryCriterion>& injury_criteria() {
       {chest_compression, "chest_compression", "chest compression", "C = D / D0", "1",
        {{0.34, "about AIS 3", "K1"}, {0.40, "about AIS 4", "K1"}},
        "Kroell et al. 1974; Viano and Lau 1988", "K1", "slow blunt loads on a wide area; says little of fast, narrow ones"},
-      {viscous_criterion, "viscous_criterion", "viscous criterion VC", "largest V(t) D(t) / D0", "m/s",
+      {viscous_criterion, "viscous_criterion", "viscous criterion VC", "largest V(t) D(t) / D0 while both are inwards", "m/s",
        {{0.8, "about 50 % AIS 2 to 3, blunt ballistic impacts", "K2"}, {1.0, "25 % AIS 4 and more, frontal crash", "R"}},
        "Viano and Lau, SAE 861882; Bir and Viano 2004", "R", "soft tissue under loads of 3 to 30 m/s; a vest's back face is faster and narrower"},
-      {viscous_criterion_crash, "viscous_criterion_crash", "viscous criterion, crash practice", "largest 1.3 V(t) D(t) / 0.229 m", "m/s",
+      {viscous_criterion_crash, "viscous_criterion_crash", "viscous criterion, crash practice", "largest 1.3 V(t) D(t) / 0.229 m while both are inwards", "m/s",
        {{1.0, "limit of crash regulations", "K1"}},
        "SAE J1727, Hybrid III dummy", "K2", "scaled for a dummy's ribs, here to compare with crash tests only; unfiltered"},
       {back_face_signature, "back_face_signature", "back-face signature", "largest deflection of the vest's back face", "m",
-       {{0.044, "limit of the clay test", "S"}, {0.0447, "10 % lethality, 74 goats read anew (95 %: 17.6 to 55.4 mm)", "R"}, {0.0499, "15 % lethality, the same (24.7 to 60.4 mm)", "R"}},
-       "NIJ 0101; Prather, Swann and Hawkins 1977; Yoganandan et al., A Novel Paradigm to Develop Regional Thoracoabdominal Criteria for BABT (abstract)", "S", "a depth in clay: over tissue, or nothing, the depth is another; stiff places (sternum, ribs) are hurt below 44 mm"},
+       {{0.044, "limit of the clay test, a depth in clay", "S"}, {0.0447, "10 % lethality, deflection of a goat's thorax, 74 goats read anew (95 %: 17.6 to 55.4 mm)", "R"}, {0.0499, "15 % lethality, the same thorax (24.7 to 60.4 mm)", "R"}},
+       "NIJ 0101; Prather, Swann and Hawkins 1977; Yoganandan et al., A Novel Paradigm to Develop Regional Thoracoabdominal Criteria for BABT (abstract)", "S", "each threshold is of its own backing, clay or a goat: over another, or nothing, the depth is another; stiff places (sternum, ribs) are hurt below 44 mm"},
       {blunt_criterion, "blunt_criterion", "blunt criterion BC", "ln(E / (W^(1/3) T D)), E in J, W in kg, T and D in cm; T = 0.711 W^(1/3) cm unless given", "1",
        {{0.37, "about 50 % AIS 2 to 3, thorax", "K2"}},
        "Sturdivan, Viano and Champion 2004; Bir and Viano 2004", "K2", "blunt projectiles of 30 to 200 g that touch the body; behind a vest give energy and diameter of what does, not of the bullet"},
@@ -79,7 +79,7 @@ const std::vector<InjuryCriterion>& injury_criteria() {
        {{23.99, "50 % penetration of the skin, anterior thorax", "R"}},
        "Bir et al. 2005, 2012", "R", "blunt projectiles on bare skin"},
       {chest_wall_velocity, "chest_wall_velocity", "chest wall velocity in blast (Axelsson, Yelverton)", "mean over the gauges of the largest x' of M x'' + J x' + K x = A (p + P0 - P0 (V0 / (V0 - A x))^g), M 2.03 kg, J 696 N s/m, K 989 N/m, A 0.082 m2, V0 1.82e-3 m3, g 1.2, P0 101325 Pa", "m/s",
-       {{3.6, "trace to slight from here on", "K1"}, {7.5, "moderate to extensive from here on", "K1"}, {12.8, "more than 50 % lethality", "K1"}},
+       {{3.6, "trace to slight from here on", "K1"}, {4.3, "slight to moderate from here on", "K1"}, {7.5, "moderate to extensive from here on", "K1"}, {12.8, "more than 50 % lethality", "K1"}},
        "Axelsson and Yelverton 1996", "K1", "blast on a rigid cylinder's four gauges in the open or a room; not for a bullet behind a vest, and not for gauges on a wall that gives way"},
       {blast_injury_index, "adjusted_severity_of_injury_index", "ASII in blast", "(0.124 + 0.117 V)^2.63, V in m/s", "1", {},
        "Axelsson and Yelverton 1996", "K1", "as the chest wall velocity it is made of"},
@@ -115,7 +115,7 @@ double chest_compression(double deflection, double chest_depth) { return deflect
 std::vector<double> viscous_response(std::span<const double> velocity, std::span<const double> deflection, double chest_depth) {
   std::vector<double> out;
   for (std::size_t k = 0; k < velocity.size(); ++k) {
-    out.push_back(velocity[k] * deflection[k] / chest_depth);
+    out.push_back(std::max(velocity[k], 0.0) * std::max(deflection[k], 0.0) / chest_depth);
   }
   return out;
 }
@@ -133,14 +133,14 @@ double four_parameter_lethality(const BluntImpact& impact) {
   return 1 / (1 + std::exp(34.13 - 3.597 * std::log(mass_speed_squared / resistance(impact))));
 }
 
-Peak chest_wall_response(std::span<const double> overpressure, double interval) {
+ChestWallResponse chest_wall_response(std::span<const double> overpressure, double interval) {
   Peak peak;
   ChestWall wall;
   for (std::size_t k = 1; k < overpressure.size() && !wall.spent(); ++k) {
     wall.step(interval, overpressure[k - 1], overpressure[k]);
     peak = wall.v > peak.value ? Peak{wall.v, interval * static_cast<double>(k)} : peak;
   }
-  return peak;
+  return {peak, wall.spent()};
 }
 
 double adjusted_severity(double chest_wall_velocity) { return std::pow(0.124 + 0.117 * chest_wall_velocity, 2.63); }

@@ -66,9 +66,9 @@ Peak largest_of(std::span<const double> samples, double interval, double start =
 
 /// C = D / D0 of a deflection and the depth of the chest, m.
 double chest_compression(double deflection, double chest_depth);
-/// V(t) D(t) / D0, m/s, at every sample. Viano and Lau, SAE 861882.
+/// V(t) D(t) / D0, m/s, at every sample; zero where either is outwards: a chest that springs back is not squeezed. Viano and Lau, SAE 861882.
 std::vector<double> viscous_response(std::span<const double> velocity, std::span<const double> deflection, double chest_depth);
-/// Crash practice for the Hybrid III dummy: 1.3 V(t) D(t) / 0.229 m. SAE J1727.
+/// Crash practice for the Hybrid III dummy: 1.3 V(t) D(t) / 0.229 m, likewise. SAE J1727.
 std::vector<double> crash_viscous_response(std::span<const double> velocity, std::span<const double> deflection);
 
 /// What hits a body.
@@ -84,10 +84,14 @@ double body_wall_thickness(double body_mass);
 double blunt_criterion(const BluntImpact& impact);
 /// P = 1 / (1 + exp(34.13 - 3.597 ln(M V^2 / (W^(1/3) T D)))), M in g, V in m/s, W in kg, T and D in cm. Clare et al. 1975.
 double four_parameter_lethality(const BluntImpact& impact);
+struct ChestWallResponse {
+  Peak peak;        ///< inward velocity, m/s
+  bool cut = false; ///< the lung was squeezed to a tenth and the rest of the load left out: the velocity is at least this
+};
 /// Largest inward velocity of the chest wall, m/s, under a pressure over the ambient one (Pa) at equal intervals (s); time from the
 /// first sample. Axelsson and Yelverton 1996, a man of 70 kg, one lung, wall and gas as springs around it:
 ///   M x'' + J x' + K x = A (p(t) + P0 - P0 (V0 / (V0 - A x))^g).
-Peak chest_wall_response(std::span<const double> overpressure, double interval);
+ChestWallResponse chest_wall_response(std::span<const double> overpressure, double interval);
 /// ASII = (0.124 + 0.117 V)^2.63 of the mean of those velocities at the gauges, m/s. The same source.
 double adjusted_severity(double chest_wall_velocity);
 /// Energy over the area of a circle, J/cm2.

@@ -1,11 +1,19 @@
 #include "problems/injury_measure.hpp"
 
+#include "problems/place_in_cell.hpp"
+
+#include <algorithm>
 #include <numeric>
 
 namespace ballast {
 namespace {
 
-constexpr double half_full = 0.5;
+constexpr double half_full = 0.5, all_but_gone = 0.01;
+
+template <int Dim> double fraction_in(const Block<Dim>& b, const MaterialSlot& slot, const std::array<int, 3>& cell) {
+  const int r = b.grid.cell_row(cell[1], cell[2]);
+  return !slot.is_void && slot.store.has_row(r) ? slot.store.row(field::fraction, r)[cell[0]] : 0.0;
+}
 
 template <int Dim> std::array<double, 3> middle_of(const Block<Dim>& b, int i, int j, int k) {
   std::array<double, 3> x = {0, 0, 0};
@@ -46,9 +54,8 @@ template <int Dim> PressurePeak highest_in_row(const Block<Dim>& b, const TileSt
 
 /// Velocity along an axis of what a slot holds, for the nodes of a row of nodes from `begin` to `end`.
 template <int Dim> void node_velocities(const Block<Dim>& b, const MaterialSlot& slot, std::size_t axis, int row, Span nodes, double* out) {
-  const double* u = b.velocity[axis].row(row);
   for (int i = nodes.begin; i < nodes.end; ++i) {
-    out[i] = b.any_sliding() ? velocity_of(b, slot.slides, axis, row, i) : u[i];
+    out[i] = velocity_of(b, slot.slides, axis, row, i);
   }
 }
 
@@ -104,9 +111,52 @@ template <int Dim> double material_momentum(const Block<Dim>& b, const std::vect
   return std::accumulate(rows.begin(), rows.end(), 0.0);
 }
 
+template <int Dim> int fullest_slot(const Block<Dim>& b, const std::array<int, 3>& cell) {
+  int fullest = -1;
+  double most = 0;
+  for (std::size_t s = 0; s < b.materials.size(); ++s) {
+    const double part = fraction_in(b, b.materials[s], cell);
+    fullest = part > most ? static_cast<int>(s) : fullest;
+    most = std::max(most, part);
+  }
+  return fullest;
+}
+
+template <int Dim> bool holds(const Block<Dim>& b, const std::array<int, 3>& cell, int slot) {
+  return slot >= 0 && fraction_in(b, b.materials[static_cast<std::size_t>(slot)], cell) >= all_but_gone;
+}
+
+template <int Dim> bool beyond_mesh(const Block<Dim>& b, const std::array<int, 3>& cell, const std::array<double, 3>& at) {
+  std::array<bool, Dim> first{}, last{};
+  for (std::size_t d = 0; d < Dim; ++d) {
+    first[d] = cell[d] == 0;
+    last[d] = cell[d] == b.grid.cells[d] - 1;
+  }
+  if (b.map.curved()) { // its axes are not those of space: any side may face any way
+    const auto any = [](const auto& of) { return std::find(of.begin(), of.end(), true) != of.end(); };
+    const bool edge = any(first) || any(last);
+    first.fill(edge);
+    last.fill(edge);
+  }
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const auto x = node_range(b, static_cast<int>(d), cell);
+    const double margin = 0.5 * (x[1] - x[0]);
+    if ((first[d] && at[d] < x[0] - margin) || (last[d] && at[d] > x[1] + margin)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 template PressurePeak highest_pressure<2>(const Block<2>&, int, bool, ThreadPool&);
 template PressurePeak highest_pressure<3>(const Block<3>&, int, bool, ThreadPool&);
 template double material_momentum<2>(const Block<2>&, const std::vector<int>&, int, ThreadPool&);
 template double material_momentum<3>(const Block<3>&, const std::vector<int>&, int, ThreadPool&);
+template int fullest_slot<2>(const Block<2>&, const std::array<int, 3>&);
+template int fullest_slot<3>(const Block<3>&, const std::array<int, 3>&);
+template bool holds<2>(const Block<2>&, const std::array<int, 3>&, int);
+template bool holds<3>(const Block<3>&, const std::array<int, 3>&, int);
+template bool beyond_mesh<2>(const Block<2>&, const std::array<int, 3>&, const std::array<double, 3>&);
+template bool beyond_mesh<3>(const Block<3>&, const std::array<int, 3>&, const std::array<double, 3>&);
 
 } // namespace ballast

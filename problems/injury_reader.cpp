@@ -11,7 +11,8 @@
 namespace ballast {
 namespace {
 
-constexpr double most_samples = 1e6; // of a record
+constexpr double most_samples = 1e6;       // of a record
+constexpr double longest_in_blast = 50e-6; // s: a blast rises and falls in ms, a wall on a squeezed lung is stable up to 0.4 ms
 
 struct Names {
   std::vector<std::string> all;
@@ -145,6 +146,10 @@ void read_intervals(Deck& deck, const Section& in, const SceneSpec& scene, Injur
     return; // has had its error
   }
   double longest = std::numeric_limits<double>::infinity();
+  if (given(in, "blast_gauges") && injury.record_every > longest_in_blast) {
+    deck.fail(*record, fmt::format("{:g} s is too coarse for a chest wall in blast", injury.record_every), fmt::format("at most {:g} s with `blast_gauges`", longest_in_blast));
+    return;
+  }
   for (const int cfc : injury.filters) {
     longest = std::min(longest, longest_interval(cfc));
   }
@@ -171,6 +176,16 @@ double copies_of(const SceneSpec& scene, int shot_axis) {
   return copies;
 }
 
+/// Where the scene is mirrored along an axis: the axis itself, or the plane of symmetry (of two the lower).
+double mirror_of(const SceneSpec& scene, std::size_t axis) {
+  if (scene.geometry == Geometry::axisymmetric) {
+    return 0;
+  }
+  const Bounds mesh = mesh_bounds(scene);
+  const double plane = scene.boundaries[axis][0].kind == BoundaryKind::symmetry ? mesh.lo[axis] : mesh.hi[axis];
+  return std::isfinite(plane) ? plane : 0; // no mesh: has had its error
+}
+
 /// How wide a body is across the shot, m: to both sides of planes of symmetry and of the axis.
 double diameter_of(const SceneSpec& scene, const Body& body, int shot_axis) {
   const Bounds box = bounds(body.shape);
@@ -180,7 +195,8 @@ double diameter_of(const SceneSpec& scene, const Body& body, int shot_axis) {
       continue;
     }
     const bool half = scene.geometry == Geometry::axisymmetric || mirrored(scene, axis);
-    diameter = std::max(diameter, half ? 2 * std::max(std::abs(box.lo[axis]), std::abs(box.hi[axis])) : box.hi[axis] - box.lo[axis]);
+    const double middle = half ? mirror_of(scene, axis) : 0.5 * (box.lo[axis] + box.hi[axis]);
+    diameter = std::max(diameter, 2 * std::max(std::abs(box.lo[axis] - middle), std::abs(box.hi[axis] - middle)));
   }
   return diameter;
 }
@@ -195,6 +211,24 @@ bool knows_whole_mass(Deck& deck, DeckNode& node, const SceneSpec& scene, const 
     return true;
   }
   return false;
+}
+
+/// What else is of a material of those that hit, or flies otherwise: the energy is that of all their materials hold. Empty: nothing.
+std::string stranger_among(const SceneSpec& scene, const std::vector<int>& hit) {
+  for (const int h : hit) {
+    const Body& first = scene.bodies[static_cast<std::size_t>(h)];
+    if (first.material >= 0 && first.material == scene.background) {
+      return "what fills the mesh is of the same material";
+    }
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      const Body& other = scene.bodies[b];
+      const bool listed = std::find(hit.begin(), hit.end(), static_cast<int>(b)) != hit.end();
+      if (other.material == first.material && (!listed || other.velocity != first.velocity || other.radial)) {
+        return fmt::format("\"{}\" is of the same material and {}", other.name, listed ? "has another velocity" : "not listed");
+      }
+    }
+  }
+  return "";
 }
 
 /// Bodies that hit; their diameter unless the deck gives one. False (and an error) if they cannot be used.
@@ -220,6 +254,8 @@ bool read_bodies_that_hit(Deck& deck, const Section& in, DeckNode& list, SceneSp
     deck.fail(list, "a hole has no energy", "bodies of a material");
   } else if (!moves && !in.has("impactor_energy")) {
     deck.fail(list, "none of these moves at the start", "a body with a velocity, or `impactor_energy`");
+  } else if (const std::string stranger = stranger_among(scene, injury.impactor); !stranger.empty() && !in.has("impactor_energy")) {
+    deck.fail(list, stranger + ": the energy would be that of both", "`impactor_energy` and `impactor_diameter`, or another material for it");
   } else if (!std::isfinite(injury.impactor_diameter)) {
     deck.fail(list, "has no end across the shot", "`impactor_diameter`");
   } else {

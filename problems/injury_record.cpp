@@ -8,7 +8,7 @@
 namespace ballast {
 namespace {
 
-constexpr std::size_t numbers_of_a_site = 4, numbers_of_an_organ = 5, numbers_of_all = 4;
+constexpr std::size_t numbers_of_a_site = 6, numbers_of_an_organ = 5, numbers_of_all = 4;
 
 void keep(Peak& largest, double value, double time, double sign) { largest = sign * value > sign * largest.value ? Peak{value, time} : largest; }
 
@@ -17,7 +17,7 @@ void keep(Peak& largest, double value, double time, double sign) { largest = sig
 template <int Dim> void InjuryRecord<Dim>::follow(int gauge) {
   const bool known = std::any_of(sites_.begin(), sites_.end(), [&](const InjurySite& s) { return s.gauge == gauge; });
   if (gauge >= 0 && !known) {
-    sites_.push_back({gauge, {}});
+    sites_.push_back({.gauge = gauge, .steps = {}});
   }
 }
 
@@ -63,6 +63,15 @@ template <int Dim> void InjuryRecord<Dim>::find_peaks(const Scene<Dim>& scene, d
   }
 }
 
+/// Does it still ride on what it began on?
+template <int Dim>
+void InjuryRecord<Dim>::watch(InjurySite& site, const Block<Dim>& b, const std::array<int, 3>& cell, const std::array<double, 3>& at, double time) {
+  site.slot = started_ ? site.slot : fullest_slot(b, cell);
+  if (site.lost < 0 && (!holds(b, cell, site.slot) || beyond_mesh(b, cell, at))) {
+    site.lost = time;
+  }
+}
+
 template <int Dim> void InjuryRecord<Dim>::step(const Scene<Dim>& scene, double time, std::span<const double> gauges) {
   if (!asked()) {
     return;
@@ -71,11 +80,13 @@ template <int Dim> void InjuryRecord<Dim>::step(const Scene<Dim>& scene, double 
   const Block<Dim>& b = scene.blocks[0];
   const auto axis = static_cast<std::size_t>(in.axis);
   std::vector<double> now;
-  for (const InjurySite& site : sites_) {
+  for (InjurySite& site : sites_) {
     const auto q = static_cast<std::size_t>(site.gauge);
     const std::array<double, 3> at = {gauges[3 * q], gauges[3 * q + 1], gauges[3 * q + 2]};
     now.push_back(in.direction * (at[axis] - spec_.gauges[q].at[axis]));
-    now.push_back(in.direction * velocity_at(b, find_cell(b, at), at)[axis]);
+    const std::array<int, 3> cell = find_cell(b, at);
+    watch(site, b, cell, at, time);
+    now.push_back(in.direction * velocity_at(b, cell, at)[axis]);
     if (site.gauge == in.back_gauge) {
       keep(back_face_, now[now.size() - 2], time, 1);
     }
@@ -106,7 +117,7 @@ template <int Dim> std::vector<double> InjuryRecord<Dim>::memory() const {
   }
   std::vector<double> numbers = {time_, started_ ? 1.0 : 0.0, back_face_.value, back_face_.time};
   for (const InjurySite& s : sites_) {
-    numbers.insert(numbers.end(), {s.steps.along.value, s.steps.along.time, s.steps.against.value, s.steps.against.time});
+    numbers.insert(numbers.end(), {s.steps.along.value, s.steps.along.time, s.steps.against.value, s.steps.against.time, static_cast<double>(s.slot), s.lost});
   }
   for (const OrganPeak& o : organs_) {
     numbers.insert(numbers.end(), {o.peak.pressure, o.peak.at[0], o.peak.at[1], o.peak.at[2], o.time});
@@ -127,6 +138,8 @@ template <int Dim> std::size_t InjuryRecord<Dim>::recall(std::span<const double>
   std::size_t at = numbers_of_all;
   for (InjurySite& s : sites_) {
     s.steps = {{n[at], n[at + 1]}, {n[at + 2], n[at + 3]}};
+    s.slot = static_cast<int>(n[at + 4]);
+    s.lost = n[at + 5];
     at += numbers_of_a_site;
   }
   for (OrganPeak& o : organs_) {

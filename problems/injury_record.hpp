@@ -22,7 +22,9 @@ struct BothWays {
 /// A gauge that is followed.
 struct InjurySite {
   int gauge = -1;
-  BothWays steps; ///< acceleration from step to step, m/s2
+  BothWays steps;   ///< acceleration from step to step, m/s2
+  int slot = -1;    ///< what it rides on, -1: nothing
+  double lost = -1; ///< since when it rides on that no more, s; -1: it does
 };
 
 struct OrganPeak {
@@ -50,6 +52,7 @@ public:
   /// Over the ambient one, of the `n`th of `blast_gauges`, Pa.
   const std::vector<double>& overpressure(std::size_t n) const { return record_.column(2 * sites_.size() + (force_slots_.empty() ? 0 : 1) + n); }
   const Peak& back_face() const { return back_face_; } ///< largest deflection, m
+  double time() const { return time_; }                ///< of the last step, s
 
   std::vector<double> memory() const;
   /// The inverse; returns how many numbers it took.
@@ -58,6 +61,7 @@ public:
 private:
   std::size_t site_of(int gauge) const;
   void follow(int gauge);
+  void watch(InjurySite& site, const Block<Dim>& block, const std::array<int, 3>& cell, const std::array<double, 3>& at, double time);
   void find_peaks(const Scene<Dim>& scene, double time);
 
   const SceneSpec& spec_;

@@ -16,6 +16,9 @@ ordered_json json_of(const InjuryValue& v) {
   if (v.time > 0) {
     j["at_s"] = v.time;
   }
+  if (v.at_least) {
+    j["at_least"] = true;
+  }
   j["formula"] = c.formula;
   j["thresholds"] = ordered_json::array();
   for (const InjuryThreshold& t : c.thresholds) {
@@ -50,7 +53,8 @@ template <int Dim> ordered_json injury_results(const SceneSpec& scene, const Inj
   ordered_json j;
   j["note"] = injury_note;
   j["criteria"] = ordered_json::object();
-  for (const InjuryValue& v : injury_values(scene, record, start)) {
+  const std::vector<InjuryValue> values = injury_values(scene, record, start);
+  for (const InjuryValue& v : values) {
     j["criteria"][criterion(v.measure).key] = json_of(v);
   }
   for (const InjurySite& site : record.sites()) {
@@ -69,7 +73,7 @@ template <int Dim> ordered_json injury_results(const SceneSpec& scene, const Inj
   for (const auto& [name, peaks] : peak_forces(scene, record)) {
     j["force_N"][name] = json_of(peaks);
   }
-  j["warnings"] = injury_warnings(scene, record);
+  j["warnings"] = injury_warnings(scene, record, values);
   return j;
 }
 

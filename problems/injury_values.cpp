@@ -54,18 +54,20 @@ template <int Dim> void chest_values(const InjurySpec& in, const InjuryRecord<Di
 /// Force of the materials of `force_on` by a filter, N, between samples.
 template <int Dim> std::vector<double> filtered_force(const InjuryRecord<Dim>& record, int cfc) {
   const double h = record.record().interval();
-  return cfc_filtered(rates(record.momentum(), h), h, cfc, RecordEnds::from_rest);
+  return cfc_filtered(rates(record.momentum(), h), h, cfc);
 }
 
 template <int Dim> void blast_values(const InjurySpec& in, const InjuryRecord<Dim>& record, std::vector<InjuryValue>& values) {
   double mean = 0, last = 0;
+  bool cut = false;
   for (std::size_t n = 0; n < in.blast.size(); ++n) {
-    const Peak peak = chest_wall_response(record.overpressure(n), record.record().interval());
-    mean += peak.value / static_cast<double>(in.blast.size());
-    last = std::max(last, peak.time);
+    const ChestWallResponse wall = chest_wall_response(record.overpressure(n), record.record().interval());
+    mean += wall.peak.value / static_cast<double>(in.blast.size());
+    last = std::max(last, wall.peak.time);
+    cut = cut || wall.cut;
   }
-  values.push_back({chest_wall_velocity, mean, last});
-  values.push_back({blast_injury_index, adjusted_severity(mean), 0});
+  values.push_back({chest_wall_velocity, mean, last, cut});
+  values.push_back({blast_injury_index, adjusted_severity(mean), 0, cut});
 }
 
 void impact_values(const SceneSpec& scene, const StartOfRun& start, std::vector<InjuryValue>& values) {
@@ -132,7 +134,7 @@ template <int Dim> std::map<std::string, BothWays> peak_accelerations(const Scen
   all["recorded"] = both_ways(a, h, 0.5 * h);
   all["sampled"] = both_ways(every(a, stride), in.sample_every, 0.5 * h);
   for (const int cfc : in.filters) {
-    all[filter_name(cfc)] = both_ways(cfc_filtered(a, h, cfc, RecordEnds::from_rest), h, 0.5 * h);
+    all[filter_name(cfc)] = both_ways(cfc_filtered(a, h, cfc), h, 0.5 * h);
   }
   return all;
 }
@@ -148,32 +150,11 @@ template <int Dim> std::map<std::string, BothWays> peak_forces(const SceneSpec& 
   return all;
 }
 
-template <int Dim> std::vector<std::string> injury_warnings(const SceneSpec& scene, const InjuryRecord<Dim>& record) {
-  const InjurySpec& in = *scene.injury;
-  std::vector<std::string> all;
-  const double length = record.record().interval() * static_cast<double>(record.record().size());
-  const bool filtered = !in.accelerometers.empty() || !in.force_on.empty();
-  for (const int cfc : in.filters) {
-    if (filtered && record.record().longest_step() > longest_interval(cfc)) {
-      all.push_back(fmt::format("steps of up to {:g} s are too long for CFC {}: at most {:g} s", record.record().longest_step(), cfc, longest_interval(cfc)));
-    }
-    if (filtered && length * cfc < 1) {
-      all.push_back(fmt::format("{:g} s of record are less than 1 / CFC {}: its peaks depend on how the record goes on beyond its end", length, cfc));
-    }
-  }
-  if (!in.impactor.empty() && in.impactor_energy == 0 && !scene.layers.empty()) {
-    all.emplace_back("the impactor's energy and diameter are those of the bodies before the vest, not of what touches the body behind it");
-  }
-  return all;
-}
-
 template std::vector<InjuryValue> injury_values<2>(const SceneSpec&, const InjuryRecord<2>&, const StartOfRun&);
 template std::map<std::string, BothWays> peak_accelerations<2>(const SceneSpec&, const InjuryRecord<2>&, const InjurySite&);
 template std::map<std::string, BothWays> peak_forces<2>(const SceneSpec&, const InjuryRecord<2>&);
-template std::vector<std::string> injury_warnings<2>(const SceneSpec&, const InjuryRecord<2>&);
 template std::vector<InjuryValue> injury_values<3>(const SceneSpec&, const InjuryRecord<3>&, const StartOfRun&);
 template std::map<std::string, BothWays> peak_accelerations<3>(const SceneSpec&, const InjuryRecord<3>&, const InjurySite&);
 template std::map<std::string, BothWays> peak_forces<3>(const SceneSpec&, const InjuryRecord<3>&);
-template std::vector<std::string> injury_warnings<3>(const SceneSpec&, const InjuryRecord<3>&);
 
 } // namespace ballast

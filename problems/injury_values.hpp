@@ -12,6 +12,7 @@ namespace ballast {
 struct InjuryValue {
   InjuryMeasure measure;
   double value = 0, time = 0; ///< in the criterion's unit; s, 0 where there is no time to it
+  bool at_least = false;      ///< a lower bound: the law ended before the load did
 };
 
 /// What a run knows of a body that hits.
@@ -32,6 +33,7 @@ template <int Dim> std::map<std::string, BothWays> peak_accelerations(const Scen
 /// Peak forces on the materials of `force_on`, N, by filter.
 template <int Dim> std::map<std::string, BothWays> peak_forces(const SceneSpec& scene, const InjuryRecord<Dim>& record);
 
-template <int Dim> std::vector<std::string> injury_warnings(const SceneSpec& scene, const InjuryRecord<Dim>& record);
+/// What makes the values weaker than they look: problems/injury_warnings.cpp.
+template <int Dim> std::vector<std::string> injury_warnings(const SceneSpec& scene, const InjuryRecord<Dim>& record, const std::vector<InjuryValue>& values);
 
 } // namespace ballast

@@ -74,24 +74,29 @@ TEST(CfcFilter, LiesInTheCorridorOfTheStandard) {
 
 TEST(CfcFilter, ConstantAndRampPassUnchanged) {
   for (const int cfc : cfc_classes) {
-    for (const std::size_t count : {2UL, 7UL, 1000UL}) { // shorter than the filter's memory, too
-      std::vector<double> level(count, 3.5), ramp;
-      for (std::size_t k = 0; k < count; ++k) {
-        ramp.push_back(1 + 0.01 * static_cast<double>(k));
-      }
-      const std::vector<double> same = cfc_filtered(level, 1e-5, cfc), still = cfc_filtered(ramp, 1e-5, cfc);
-      for (std::size_t k = 0; k < count; ++k) {
-        EXPECT_NEAR(same[k], level[k], 1e-10); // 1e4 passes of round-off times a memory of 1e3 samples
-        EXPECT_NEAR(still[k], ramp[k], 1e-9);
-      }
+    const double interval = 1.0 / (100.0 * cfc);
+    std::vector<double> level(2000, 3.5), ramp;
+    for (std::size_t k = 0; k < level.size(); ++k) {
+      ramp.push_back(1 + 0.01 * static_cast<double>(k));
+    }
+    const std::vector<double> same = cfc_filtered(level, interval, cfc), still = cfc_filtered(ramp, interval, cfc);
+    for (std::size_t k = 600; k < 1400; ++k) { // 6 / CFC from either end
+      EXPECT_NEAR(same[k], level[k], 1e-10); // round-off times the filter's memory
+      EXPECT_NEAR(still[k], ramp[k], 1e-9);
     }
   }
 }
 
+TEST(CfcFilter, ShortRecordsHaveTheirLength) {
+  for (const std::size_t count : {0UL, 1UL, 2UL, 7UL}) { // shorter than the filter's memory
+    EXPECT_EQ(cfc_filtered(std::vector<double>(count, 0.0), 1e-5, 1000), std::vector<double>(count, 0.0));
+  }
+}
+
 TEST(CfcFilter, RunsTheSameBothWays) {
-  std::vector<double> pulse(2000, 0.0);
-  for (std::size_t k = 700; k < 800; ++k) {
-    pulse[k] = static_cast<double>(k - 700);
+  std::vector<double> pulse(14000, 0.0);
+  for (std::size_t k = 6900; k < 7000; ++k) { // 6 / CFC from either end
+    pulse[k] = static_cast<double>(k - 6900);
   }
   std::vector<double> turned(pulse.rbegin(), pulse.rend());
   std::vector<double> back = cfc_filtered(turned, 1e-6, 1000);
@@ -108,7 +113,7 @@ TEST(CfcFilter, ImpactAtTheStartIsFilteredAsAnyOther) {
   for (std::size_t k = 0; k < 40; ++k) {
     first[k] = later[middle + k] = 1e6 * (1 + 0.5 * std::sin(static_cast<double>(k)));
   }
-  const std::vector<double> a = cfc_filtered(first, 1e-6, 1000, RecordEnds::from_rest), b = cfc_filtered(later, 1e-6, 1000, RecordEnds::from_rest);
+  const std::vector<double> a = cfc_filtered(first, 1e-6, 1000), b = cfc_filtered(later, 1e-6, 1000);
   for (std::size_t k = 0; k < middle; ++k) {
     EXPECT_NEAR(a[k], b[middle + k], 1e-6);
   }
@@ -118,7 +123,7 @@ TEST(CfcFilter, ImpactAtTheStartIsFilteredAsAnyOther) {
 TEST(CfcFilter, AtTheEndALevelGoesOn) {
   std::vector<double> step(9000, 0.0);
   std::fill(step.begin() + 4500, step.end(), 2.0); // 4.5 / CFC before the end
-  EXPECT_NEAR(cfc_filtered(step, 1e-6, 1000, RecordEnds::from_rest).back(), 2.0, 1e-9);
+  EXPECT_NEAR(cfc_filtered(step, 1e-6, 1000).back(), 2.0, 1e-9);
 }
 
 TEST(CfcFilter, RefusesSamplesTooFarApart) {
