@@ -1,6 +1,8 @@
 // Where the bodies are: levels of nodes, kinds of cells.
 #include "ale/embedding_cells.hpp"
 
+#include "ale/embedding_slits.hpp"
+
 namespace ballast {
 
 constexpr double reach_in_edges = 2.2; ///< of a node's longest edge: all nodes of cut cells and of their neighbours
@@ -8,11 +10,12 @@ constexpr double through_in_edges = 1.6; ///< likewise: a body may be open on it
 
 template <int Dim> std::vector<LayerBody<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e) {
   std::vector<LayerBody<Dim>> out;
+  const std::vector<std::vector<double>> own = own_thickness(scene, e);
   for (std::size_t s = 0; s < scene.layers.size(); ++s) {
     if constexpr (Dim == 3) {
-      out.emplace_back(scene.layers[s].stack, e.alive[s], e.least_thickness[s], e.bin, *scene.pool);
+      out.emplace_back(scene.layers[s].stack, e.alive[s], e.least_thickness[s], e.bin, *scene.pool, own[s]);
     } else {
-      out.emplace_back(scene.layers[s].stack, e.alive[s], e.least_thickness[s], e.bin);
+      out.emplace_back(scene.layers[s].stack, e.alive[s], e.least_thickness[s], e.bin, own[s]);
     }
     out.back().set_longest_reach(reach_in_edges * e.longest_edge);
   }
@@ -20,6 +23,15 @@ template <int Dim> std::vector<LayerBody<Dim>> bodies_of(const Scene<Dim>& scene
 }
 
 namespace {
+
+/// m: what a body must be thick for the cells in a box of `reach_in_edges` of their edges (ale/embedding_thickness).
+template <int Dim> double slit_width(const std::array<double, Dim>& box, const std::array<double, Dim>& normal) {
+  double width = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    width += std::abs(normal[d]) * box[d] / reach_in_edges;
+  }
+  return spare_thickness * width;
+}
 
 /// Signs of nodes near bodies but out of reach of their surfaces. No surface crosses an edge between two of them, so those that hang together are all
 /// inside or all outside, as most nodes around them are.
@@ -119,24 +131,48 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       return;
     }
     const double edge = edges_at<Dim>(g, position, i, j, k)[0], reach = reach_in_edges * edge;
-    NodeFoot<Dim> best{{}, -1, r, i, -1, false, {}, {}};
+    std::vector<StackFoot<Dim>> beside; // most nodes: one stack
     for (std::size_t s = 0; s < bodies.size(); ++s) {
-      BodyFoot<Dim> f;
-      if (bodies[s].may_touch(x, box) && foot_of(s, x, reach, f, -1, starts[s][0]) && (best.stack < 0 || f.level < best.foot.level)) {
-        best.foot = f;
-        best.stack = static_cast<int>(s);
+      StackFoot<Dim> f{static_cast<int>(s), {}};
+      if (bodies[s].may_touch(x, box) && foot_of(s, x, reach, f.foot, -1, starts[s][0])) {
+        beside.push_back(f);
       }
     }
     double& level = out.level.row(r)[i];
-    if (best.stack >= 0) {
-      level = best.foot.level;
+    const auto add = [&](const StackFoot<Dim>& f) {
       out.foot_of[node_at(g, r, i)] = static_cast<int>(feet.size());
-      feet.push_back(best);
-      BodyFoot<Dim> far;
-      const auto body = static_cast<std::size_t>(best.stack);
-      if (!(level > 0) && best.foot.side < 2 && foot_of(body, x, through_in_edges * edge, far, 1 - best.foot.side, starts[body][static_cast<std::size_t>(2 - best.foot.side)])) {
-        feet.back().other = static_cast<int>(feet.size());
-        feet.push_back({far, best.stack, r, i, -1, false, {}, {}});
+      level = f.foot.level;
+      feet.push_back({f.foot, f.stack, r, i, -1, false, {}, {}});
+    };
+    const auto add_other = [&](const StackFoot<Dim>& f) {
+      feet.back().other = static_cast<int>(feet.size());
+      feet.push_back({f.foot, f.stack, r, i, -1, false, {}, {}});
+    };
+    const auto foot_on = [&](int stack, double within, int side, BodyFoot<Dim>& f) {
+      const auto body = static_cast<std::size_t>(stack);
+      return foot_of(body, x, within, f, side, starts[body][static_cast<std::size_t>(1 + side)]);
+    };
+    if (beside.size() > 1) {
+      const double seen = seen_slit * slit_width<Dim>(box, beside.front().foot.normal);
+      const JoinedFeet<Dim> joined = join_feet<Dim>(x, beside, seen, [&](int stack, int side, BodyFoot<Dim>& f) { return foot_on(stack, reach, side, f); });
+      if (joined.closed) {
+        level = joined.inside ? -reach : reach;
+        holds[static_cast<std::size_t>(j + k * (g.cells[1] + 1))] = 1;
+        if (!joined.feet.empty()) {
+          add(joined.feet.front());
+        }
+        if (joined.inside && joined.feet.size() > 1) {
+          add_other(joined.feet.back());
+        }
+        return;
+      }
+    }
+    if (!beside.empty()) {
+      const StackFoot<Dim>& best = *std::min_element(beside.begin(), beside.end(), [](const auto& a, const auto& b) { return a.foot.level < b.foot.level; });
+      add(best);
+      StackFoot<Dim> far{best.stack, {}};
+      if (!(level > 0) && best.foot.side < 2 && foot_on(best.stack, through_in_edges * edge, 1 - best.foot.side, far.foot)) {
+        add_other(far);
       }
       return;
     }

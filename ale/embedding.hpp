@@ -169,6 +169,9 @@ void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, 
 /// What bodies must have where they are now not to slip through cells of the mesh that remaps lead to.
 template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<Dim>& e);
 
+/// By stack and node of its planes (m): of that, what it must have by itself, where other stacks lie against it. Empty where there is one stack.
+template <int Dim> std::vector<std::vector<double>> own_thickness(const Scene<Dim>& scene, const Embedding<Dim>& e);
+
 /// What a step reads of the one before, beyond where everything is.
 struct EmbeddingMemory {
   std::vector<std::vector<char>> alive; ///< Embedding::alive

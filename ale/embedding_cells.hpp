@@ -11,6 +11,9 @@ namespace ballast {
 
 inline constexpr double least_open = 1e-10; ///< of a cell: less is covered
 
+/// Of the width of cells across it, what a body is thick at least: cells are stretched until the next remap, layers bend.
+inline constexpr double spare_thickness = 1.4;
+
 /// Longest and shortest edge at a node, m.
 template <int Dim> std::array<double, 2> edges_at(const Grid& g, const std::array<RowField, Dim>& x, int i, int j, int k) {
   double longest = 0, shortest = std::numeric_limits<double>::infinity();

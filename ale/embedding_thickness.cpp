@@ -1,6 +1,8 @@
 // How thick bodies must be for the cells around them.
 #include "ale/embedding_cells.hpp"
 
+#include "ale/embed/padding.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,7 +67,6 @@ template <int Dim> std::array<double, Dim> across_face(const LayerStack<Dim>& s,
 
 /// No cell may have open corners on both sides of a body: across it the body is as thick as the cells around it are wide, wherever it is by now.
 template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<Dim>& e) {
-  constexpr double spare = 1.4; // cells are stretched until the next remap, layers bend
   const EdgeFinder<Dim> edges(scene.blocks[static_cast<std::size_t>(e.block)]);
   e.bin = std::numeric_limits<double>::infinity();
   e.longest_edge = 0;
@@ -85,7 +86,7 @@ template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<
         width += length > 0 ? std::abs(across[d]) / length * edge[d] : edge[d];
         longest = std::max(longest, edge[d]);
       }
-      thickness[n % count] = std::max(thickness[n % count], spare * width);
+      thickness[n % count] = std::max(thickness[n % count], spare_thickness * width);
       e.bin = std::min(e.bin, 2 * longest);
       e.longest_edge = std::max(e.longest_edge, longest);
     };
@@ -112,6 +113,84 @@ template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<
   }
 }
 
+namespace {
+
+/// A stack's whole thickness at a place in its plane, from the nodes around it.
+template <int Dim> struct Thickness {
+  std::array<double, Dim> bottom{}, top{}; ///< m
+  bool whole = false;                      ///< there, and no element of the column has gone
+};
+
+template <int Dim> Thickness<Dim> thickness_at(const LayerStack<Dim>& s, const std::vector<char>& alive, const std::array<double, 2>& rest) {
+  std::array<int, 2> at = {0, 0};
+  std::array<double, 2> part = {0, 0};
+  Thickness<Dim> out;
+  for (std::size_t a = 0; a < Dim - 1; ++a) {
+    const std::vector<double>& line = s.lines[a];
+    if (rest[a] < line.front() || rest[a] > line.back()) {
+      return out;
+    }
+    const auto above = std::upper_bound(line.begin() + 1, line.end() - 1, rest[a]) - line.begin();
+    at[a] = static_cast<int>(above) - 1;
+    const auto low = static_cast<std::size_t>(at[a]);
+    part[a] = (rest[a] - line[low]) / (line[low + 1] - line[low]);
+  }
+  for (int level = 0; level < s.grid.levels(); ++level) {
+    if (alive[s.element(at[0], at[1], level)] == 0) {
+      return out;
+    }
+  }
+  out.whole = true;
+  for (int corner = 0; corner < (1 << (Dim - 1)); ++corner) {
+    const int i = corner & 1, j = corner >> 1;
+    const double w = (i == 1 ? part[0] : 1 - part[0]) * (j == 1 ? part[1] : Dim == 3 ? 1 - part[1] : 1.0);
+    const std::size_t low = s.node(at[0] + i, at[1] + j, 0), high = s.node(at[0] + i, at[1] + j, s.grid.planes() - 1);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      out.bottom[d] += w * s.position[d][low];
+      out.top[d] += w * s.position[d][high];
+    }
+  }
+  return out;
+}
+
+template <int Dim> double way_between(const std::array<double, Dim>& a, const std::array<double, Dim>& b) {
+  double square = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    square += (a[d] - b[d]) * (a[d] - b[d]);
+  }
+  return std::sqrt(square);
+}
+
+} // namespace
+
+template <int Dim> std::vector<std::vector<double>> own_thickness(const Scene<Dim>& scene, const Embedding<Dim>& e) {
+  std::vector<std::vector<double>> own(scene.layers.size());
+  for (std::size_t q = 0; q < scene.layers.size() && scene.layers.size() > 1; ++q) {
+    own[q] = e.least_thickness[q];
+    const LayerStack<Dim>& s = scene.layers[q].stack;
+    for (std::size_t n = 0; n < own[q].size(); ++n) {
+      const std::array<double, 2> rest = {s.rest[0][n], Dim == 3 ? s.rest[1][n] : 0.0};
+      const Thickness<Dim> mine = thickness_at(s, e.alive[q], rest);
+      for (const int way : {-1, 1}) { // the stacks below, the stacks above, as long as there is no slit
+        Thickness<Dim> last = mine;
+        for (auto t = static_cast<std::ptrdiff_t>(q) + way; last.whole && t >= 0 && t < static_cast<std::ptrdiff_t>(own.size()); t += way) {
+          const auto other = static_cast<std::size_t>(t);
+          const Thickness<Dim> next = thickness_at(scene.layers[other].stack, e.alive[other], rest);
+          const double gap = way > 0 ? way_between<Dim>(last.top, next.bottom) : way_between<Dim>(next.top, last.bottom);
+          if (!next.whole || gap > seen_slit * e.least_thickness[q][n]) {
+            break;
+          }
+          own[q][n] = std::max(0.0, own[q][n] - gap - way_between<Dim>(next.bottom, next.top));
+          last = next;
+        }
+      }
+    }
+  }
+  return own;
+}
+
+template std::vector<std::vector<double>> own_thickness<2>(const Scene<2>&, const Embedding<2>&);
+template std::vector<std::vector<double>> own_thickness<3>(const Scene<3>&, const Embedding<3>&);
 template void find_least_thickness<2>(const Scene<2>&, Embedding<2>&);
 template void find_least_thickness<3>(const Scene<3>&, Embedding<3>&);
 

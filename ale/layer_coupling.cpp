@@ -92,12 +92,53 @@ template <int Dim> void touch_blocks(Layers<Dim>& l, std::vector<std::vector<Blo
   }
 }
 
-template <int Dim> void touch(Layers<Dim>& l, std::vector<std::vector<BlockSurface<Dim>>>& blocks, double dt, double done, double h, ThreadPool& pool) {
+template <int Dim> ContactState<Dim>& state_of(Layers<Dim>& l, int other, int layer, int other_layer) {
+  for (StackContact<Dim>& c : l.with_stacks) {
+    if (c.other == other && c.layer == layer && c.other_layer == other_layer) {
+      return c.state;
+    }
+  }
+  l.with_stacks.push_back({other, layer, other_layer, {}});
+  return l.with_stacks.back().state;
+}
+
+/// The contact of two stacks, the second above the first: of the layers on either that a block between them would meet. The rougher one's friction.
+template <int Dim> void touch_stacks(Layers<Dim>& l, Layers<Dim>& other, int number, double h, ThreadPool& pool) {
   const Stopwatch watch(l.contact_seconds);
-  const SlidelineReport report = resolve_slidelines(l.stack, h, l.stack.velocity, pool, l.contact, l.slidelines, &l.load);
-  touch_blocks(l, blocks, dt, done, h, pool); // last: what is heaviest has the last word in a step
-  book(l.ledger, report.contact);
-  l.closing = std::max(l.closing, report.closing_share);
+  const std::vector<char> mine = exposed(l.stack, false), its = exposed(other.stack, true);
+  ContactSettings settings = l.contact;
+  settings.friction = std::max(l.contact.friction, other.contact.friction);
+  for (std::size_t a = 0; a < mine.size(); ++a) {
+    for (std::size_t b = 0; b < its.size(); ++b) {
+      if (mine[a] == 0 || its[b] == 0) {
+        continue;
+      }
+      const int layer = static_cast<int>(a), other_layer = static_cast<int>(b);
+      ContactSurface<Dim> first = layer_surface(l.stack, l.stack.velocity, layer, true, l.slidelines.held, &l.load);
+      ContactSurface<Dim> second = layer_surface(other.stack, other.stack.velocity, other_layer, false, other.slidelines.held, &other.load);
+      book(l.ledger, resolve_contact(first, second, h, settings, state_of(l, number, layer, other_layer), &pool));
+    }
+  }
+}
+
+/// All contact of a substep: between layers, between stacks, last with blocks: what is heaviest has the last word.
+template <int Dim> void touch(Scene<Dim>& scene, std::vector<std::vector<BlockSurface<Dim>>>& blocks, double dt, double done, double h) {
+  ThreadPool& pool = *scene.pool;
+  for (Layers<Dim>& l : scene.layers) {
+    const Stopwatch watch(l.contact_seconds);
+    const SlidelineReport report = resolve_slidelines(l.stack, h, l.stack.velocity, pool, l.contact, l.slidelines, &l.load);
+    book(l.ledger, report.contact);
+    l.closing = std::max(l.closing, report.closing_share);
+  }
+  for (std::size_t a = 0; a < scene.layers.size(); ++a) {
+    for (std::size_t b = a + 1; b < scene.layers.size(); ++b) {
+      touch_stacks(scene.layers[a], scene.layers[b], static_cast<int>(b), h, pool);
+    }
+  }
+  for (Layers<Dim>& l : scene.layers) {
+    const Stopwatch watch(l.contact_seconds);
+    touch_blocks(l, blocks, dt, done, h, pool);
+  }
 }
 
 } // namespace
@@ -133,9 +174,15 @@ template <int Dim> void step_layers(Scene<Dim>& scene, double dt) {
     }
     last = count == 1;
     const double h = (1 - done) * dt / count;
+    const auto load = [&](Layers<Dim>& l) { return scene.embedded.empty() ? nullptr : &l.load; };
     for (Layers<Dim>& l : scene.layers) {
       const Stopwatch watch(l.seconds);
-      substep<Dim>(l.stack, h, l.ledger, *scene.pool, [&] { touch(l, blocks, dt, done, h, *scene.pool); }, scene.embedded.empty() ? nullptr : &l.load);
+      begin_substep<Dim>(l.stack, h, l.ledger, *scene.pool, load(l));
+    }
+    touch(scene, blocks, dt, done, h);
+    for (Layers<Dim>& l : scene.layers) {
+      const Stopwatch watch(l.seconds);
+      end_substep<Dim>(l.stack, h, l.ledger, *scene.pool, load(l));
       ++l.steps;
     }
     for (auto& sides : blocks) {

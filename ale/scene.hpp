@@ -82,7 +82,7 @@ template <int Dim> struct Embedding; // ale/embedding.hpp
 template <int Dim> struct Scene {
   std::string title;
   std::vector<Block<Dim>> blocks;
-  std::vector<Layers<Dim>> layers; ///< stacks of fabric
+  std::vector<Layers<Dim>> layers; ///< stacks of fabric, from the lowest
   std::vector<std::shared_ptr<Embedding<Dim>>> embedded; ///< of the blocks that they lie in
   Numerics numerics;
   Ledger ledger;

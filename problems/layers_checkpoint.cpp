@@ -78,7 +78,7 @@ template <int Dim> std::vector<double> pack(const Layers<Dim>& l) {
   return {g.edge_work, g.contact_loss, g.friction_loss, g.eroded_energy, g.edge_impulse[0], g.edge_impulse[1], g.edge_impulse[2],
           static_cast<double>(g.eroded_elements), static_cast<double>(g.crushed), g.deepest, g.edge_loss, g.step_change, l.stack.step, l.closing,
           static_cast<double>(l.steps), static_cast<double>(l.slidelines.steps), static_cast<double>(l.slidelines.pairs.size()), static_cast<double>(l.with_blocks.size()),
-          static_cast<double>(g.turned_over), static_cast<double>(g.behind), g.load_work};
+          static_cast<double>(g.turned_over), static_cast<double>(g.behind), g.load_work, static_cast<double>(l.with_stacks.size())};
 }
 
 template <int Dim> void unpack(const std::vector<double>& v, Layers<Dim>& l) {
@@ -105,38 +105,44 @@ template <int Dim> void unpack(const std::vector<double>& v, Layers<Dim>& l) {
   g.load_work = v.at(20);
   g.turned_over = static_cast<long>(v.at(18));
   g.behind = static_cast<long>(v.at(19));
+  l.with_stacks.assign(static_cast<std::size_t>(v.at(21)), {});
 }
 
-template <int Dim> void put_contact(io::CheckpointWriter& out, const std::string& base, const std::vector<ContactState<Dim>>& pairs) {
-  for (std::size_t q = 0; q < pairs.size(); ++q) {
-    const ContactState<Dim>& c = pairs[q];
-    const std::string at = base + fmt::format("{}/", q);
-    out.put(at + "state", std::vector<double>{c.travel, static_cast<double>(c.steps), c.taken});
-    for (std::size_t s = 0; s < 2; ++s) {
-      visit_track<Dim>(c.tracks[s], at + fmt::format("nodes_{}/", s), [&](const std::string& key, const auto& values) {
-        if (!values.empty()) {
-          out.put(key, as_numbers(values));
-        }
-      });
-    }
+template <int Dim> void put_contact(io::CheckpointWriter& out, const std::string& at, const ContactState<Dim>& c) {
+  out.put(at + "state", std::vector<double>{c.travel, static_cast<double>(c.steps), c.taken});
+  for (std::size_t s = 0; s < 2; ++s) {
+    visit_track<Dim>(c.tracks[s], at + fmt::format("nodes_{}/", s), [&](const std::string& key, const auto& values) {
+      if (!values.empty()) {
+        out.put(key, as_numbers(values));
+      }
+    });
   }
 }
 
-template <int Dim> void get_contact(const io::CheckpointReader& in, const std::string& base, std::vector<ContactState<Dim>>& pairs) {
-  for (std::size_t q = 0; q < pairs.size(); ++q) {
-    ContactState<Dim>& c = pairs[q];
-    const std::string at = base + fmt::format("{}/", q);
-    const std::vector<double> state = in.get_doubles(at + "state");
-    c.travel = state.at(0);
-    c.steps = static_cast<long>(state.at(1));
-    c.taken = state.at(2);
-    for (std::size_t s = 0; s < 2; ++s) {
-      visit_track<Dim>(c.tracks[s], at + fmt::format("nodes_{}/", s), [&]<class T>(const std::string& key, std::vector<T>& values) {
-        if (in.has(key)) {
-          values = from_numbers<T>(in.get_doubles(key));
-        }
-      });
-    }
+template <int Dim> void get_contact(const io::CheckpointReader& in, const std::string& at, ContactState<Dim>& c) {
+  const std::vector<double> state = in.get_doubles(at + "state");
+  c.travel = state.at(0);
+  c.steps = static_cast<long>(state.at(1));
+  c.taken = state.at(2);
+  for (std::size_t s = 0; s < 2; ++s) {
+    visit_track<Dim>(c.tracks[s], at + fmt::format("nodes_{}/", s), [&]<class T>(const std::string& key, std::vector<T>& values) {
+      if (in.has(key)) {
+        values = from_numbers<T>(in.get_doubles(key));
+      }
+    });
+  }
+}
+
+/// Calls visit(key, state) for every contact of a stack; there are as many as unpack has made room for.
+template <int Dim, class L, class Visit> void visit_contacts(L& l, const std::string& base, Visit&& visit) {
+  for (std::size_t q = 0; q < l.slidelines.pairs.size(); ++q) {
+    visit(base + fmt::format("slideline_{}/", q), l.slidelines.pairs[q]);
+  }
+  for (std::size_t q = 0; q < l.with_blocks.size(); ++q) {
+    visit(base + fmt::format("with_block_{}/", q), l.with_blocks[q]);
+  }
+  for (std::size_t q = 0; q < l.with_stacks.size(); ++q) {
+    visit(base + fmt::format("with_stack_{}/", q), l.with_stacks[q].state);
   }
 }
 
@@ -152,8 +158,11 @@ template <int Dim> void put_layers(io::CheckpointWriter& out, const std::vector<
         out.put(key, as_numbers(values));
       }
     });
-    put_contact(out, base + "slideline_", l.slidelines.pairs);
-    put_contact(out, base + "with_block_", l.with_blocks);
+    visit_contacts<Dim>(l, base, [&](const std::string& key, const ContactState<Dim>& state) { put_contact(out, key, state); });
+    for (std::size_t c = 0; c < l.with_stacks.size(); ++c) {
+      const StackContact<Dim>& with = l.with_stacks[c];
+      out.put(base + fmt::format("with_stack_{}/layers", c), std::vector<std::int64_t>{with.other, with.layer, with.other_layer});
+    }
   }
 }
 
@@ -172,8 +181,13 @@ template <int Dim> void get_layers(const io::CheckpointReader& in, std::vector<L
       }
       values = from_numbers<T>(numbers);
     });
-    get_contact(in, base + "slideline_", l.slidelines.pairs);
-    get_contact(in, base + "with_block_", l.with_blocks);
+    visit_contacts<Dim>(l, base, [&](const std::string& key, ContactState<Dim>& state) { get_contact(in, key, state); });
+    for (std::size_t c = 0; c < l.with_stacks.size(); ++c) {
+      const std::vector<std::int64_t> with = in.get_ints(base + fmt::format("with_stack_{}/layers", c));
+      l.with_stacks[c].other = static_cast<int>(with.at(0));
+      l.with_stacks[c].layer = static_cast<int>(with.at(1));
+      l.with_stacks[c].other_layer = static_cast<int>(with.at(2));
+    }
   }
 }
 

@@ -11,7 +11,7 @@ const SectionSpec& layers() {
   static const SectionSpec spec = {
       "[[layers]]",
       "A stack of fabric layers across the last axis, the shot's, its middle on the axis x = y = 0 (r = 0; planar x = 0). Two of `areal_density`, `thickness` and "
-      "`density` give the third; what is not given is `plies` times a ply of the named fabric. The same plies over another thickness carry the same load of a width: yarn and in-plane shear stresses go with density (not those of an isotropic fabric). Each layer stands for an equal share of the plies. One stack a scene. Where the mesh has a "
+      "`density` give the third; what is not given is `plies` times a ply of the named fabric. The same plies over another thickness carry the same load of a width: yarn and in-plane shear stresses go with density (not those of an isotropic fabric). Each layer stands for an equal share of the plies. Several stacks lie one behind the other, apart or face to face; they touch as their layers do, with the larger `friction` of both, and count from the lowest. Where the mesh has a "
       "plane of symmetry x = 0 or y = 0 the stack ends there, too. Around an axis the fabric is quasi-isotropic: yarns along every radius (warp) and every circle (fill); "
       "that is stiffer than woven cloth off its yarns' directions. A mesh whose sides go with what it holds touches the stack with its free sides; in any other (eulerian, follow, relax with a fixed boundary; straight lines only) the stack lies inside it, and bodies at rest that it overlaps make room (docs/embedding.md).",
       {{.name = "name", .kind = text, .doc = "unique; in columns, dumps and files", .fallback = "layers"},

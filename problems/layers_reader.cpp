@@ -287,12 +287,21 @@ bool check_count(Context c, const Section& in, const LayersSpec& out) {
   return elements <= most_cells;
 }
 
-/// Stacks do not touch each other.
-bool check_alone(Context c, const Section& in, const LayersSpec& out) {
-  if (!c.scene.layers.empty()) {
-    c.deck.fail({in.self().place, in.self().key, fmt::format("a second stack beside \"{}\": stacks have no contact with each other", c.scene.layers.front().name), fmt::format("one stack, \"{}\" with more `layers`", out.name)});
+/// Stacks are told apart by name and lie one behind the other, with or without room between.
+void check_apart(Context c, const Section& in, const LayersSpec& out) {
+  for (const LayersSpec& other : c.scene.layers) {
+    if (other.name == out.name) {
+      c.deck.fail(*in.node("name"), fmt::format("two stacks are called \"{}\"", out.name), "a name of its own for each");
+      return;
+    }
+    const double common = std::min(out.high(), other.high()) - std::max(out.low(), other.low());
+    constexpr double touching = 1e-9; // of a thickness: rounding
+    if (common > touching * std::min(out.thickness, other.thickness)) {
+      c.deck.fail(*in.node("front"), fmt::format("the stack, from {:g} to {:g} m, overlaps \"{}\", from {:g} to {:g} m", out.low(), out.high(), other.name, other.low(), other.high()),
+                  fmt::format("front = {:g} m, where \"{}\" ends, or beyond", out.direction > 0 ? other.high() : other.low(), other.name));
+      return;
+    }
   }
-  return c.scene.layers.empty();
 }
 
 void read_one(Context c, DeckNode& node) {
@@ -306,7 +315,7 @@ void read_one(Context c, DeckNode& node) {
   out.front = in.number("front", 0);
   out.direction = c.scene.results.shot_direction;
   const FabricMaterial* fabric = in.has("fabric") ? c.book.find(c.deck, out.fabric, *in.node("fabric")) : nullptr;
-  const bool sound = check_alone(c, in, out) && fabric != nullptr && in.has("layers") && in.has("elements_through") && in.has("front");
+  const bool sound = fabric != nullptr && in.has("layers") && in.has("elements_through") && in.has("front");
   if (fabric != nullptr) {
     out.model = fabric->model;
     choose_yarns(c, in, out);
@@ -321,6 +330,7 @@ void read_one(Context c, DeckNode& node) {
   if (c.deck.errors().size() > errors_before || !check_count(c, in, out)) {
     return;
   }
+  check_apart(c, in, out);
   check_room(c, in, out);
   check_shot(c, in, out);
   c.scene.layers.push_back(std::move(out));
@@ -333,6 +343,7 @@ void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, SceneSpec& scene
   for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
     read_one({deck, book, scene}, list->items[i]);
   }
+  std::stable_sort(scene.layers.begin(), scene.layers.end(), [](const LayersSpec& a, const LayersSpec& b) { return a.low() < b.low(); });
   if (!scene.layers.empty() && deck.clean() && embeds_layers(scene.motion) && scene.map.curved()) { // their room is found along straight lines
     const DeckNode& first = list->items.front();
     deck.fail({first.place, first.key, "layers lie inside a mesh of straight lines only, and this one has a map", "no mesh.map; or motion.policy = \"lagrangian\", or \"relax\" with its boundary lagrangian"});

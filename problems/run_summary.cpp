@@ -71,7 +71,7 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
                    {"sliding_impact", l.sliding_impact},
                    {"left_block", l.energy_out}, {"slivers", l.sliver_energy}, {"unaccounted", a.unaccounted}};
   if (!scene_.layers.empty()) {
-    j["wall_seconds_of_layers"] = {{"elements", layers.seconds - layers.contact_seconds}, {"contact", layers.contact_seconds}}; // of this run
+    j["wall_seconds_of_layers"] = {{"elements", layers.seconds}, {"contact", layers.contact_seconds}}; // of this run
     j["energy_J"]["lost_by_layers"] = layers.lost + layers.load_work; // in contact, to edges and where their step changed
   }
   if (!scene_.embedded.empty()) {

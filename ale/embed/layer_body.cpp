@@ -10,8 +10,8 @@
 namespace ballast {
 
 /// A layer lies to the left of its faces.
-void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least) {
-  for (const Outline& o : find_outlines(s, alive, least)) {
+void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least, const std::vector<double>& own) {
+  for (const Outline& o : find_outlines(s, alive, least, own)) {
     const auto first = static_cast<int>(vertices_.size()), count = static_cast<int>(o.size());
     std::vector<int> mirrored;
     for (const OutlineVertex& v : o) {
@@ -43,8 +43,8 @@ void LayerBody<2>::add_faces(const LayerStack<2>& s, const std::vector<char>& al
   }
 }
 
-LayerBody<2>::LayerBody(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin) {
-  add_faces(stack, alive, least_thickness);
+LayerBody<2>::LayerBody(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin, const std::vector<double>& own) {
+  add_faces(stack, alive, least_thickness, own);
   if (!faces_.empty()) {
     fill_bins(bin);
   }

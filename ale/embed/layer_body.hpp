@@ -31,8 +31,8 @@ template <int Dim> class LayerBody;
 template <> class LayerBody<2> {
 public:
   /// The outer faces of a stack as it stands. `alive`: the elements that count; `least_thickness` (m) by node of a plane; `bin` (m): about the distance at which points
-  /// are asked for.
-  LayerBody(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin);
+  /// are asked for. `own`: as in ale/embed/outline.
+  LayerBody(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin, const std::vector<double>& own = {});
 
   /// The foot of a point if it is within `reach` (m) of the body's faces. Sides alike: the lower-numbered face. `side` 0 or 1: on that
   /// side's faces or a rim's, however far inside.
@@ -80,7 +80,7 @@ private:
   /// Calls body(face) for faces of a kind in bins within `far` of a point, until it returns true.
   template <class Body> bool any_near(const std::array<double, 2>& point, double far, Kind kind, Body&& body) const;
 
-  void add_faces(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness);
+  void add_faces(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, const std::vector<double>& own);
   void fill_bins(double bin);
 
   std::vector<Vertex> vertices_;

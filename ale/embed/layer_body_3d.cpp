@@ -17,8 +17,8 @@ std::array<double, 2> corner_place(const SkinPatch& p, std::size_t corner) { ret
 
 } // namespace
 
-LayerBody<3>::LayerBody(const LayerStack<3>& s, const std::vector<char>& alive, const std::vector<double>& least, double bin, ThreadPool& pool)
-    : skin_(find_skin(s, alive, least, pool)), patches_(skin_.patches.size()) {
+LayerBody<3>::LayerBody(const LayerStack<3>& s, const std::vector<char>& alive, const std::vector<double>& least, double bin, ThreadPool& pool, const std::vector<double>& own)
+    : skin_(find_skin(s, alive, least, pool, own)), patches_(skin_.patches.size()) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     constexpr double none = std::numeric_limits<double>::infinity();
     hold_low_[axis] = s.edge[axis][0] == LayerEdge::free ? -none : s.lines[axis].front();

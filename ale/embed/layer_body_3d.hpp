@@ -10,7 +10,7 @@ namespace ballast {
 /// As in a plane (layer_body.hpp). Past an edge that is held, or a plane of symmetry, faces go on straight across it.
 template <> class LayerBody<3> {
 public:
-  LayerBody(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin, ThreadPool& pool);
+  LayerBody(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin, ThreadPool& pool, const std::vector<double>& own = {});
 
   /// `start`: a patch to look at first (a neighbour's foot), or -1; becomes the foot's. It changes nothing but the time taken.
   bool foot(const std::array<double, 3>& point, double reach, BodyFoot<3>& out, int side = -1, int* start = nullptr) const;

@@ -24,8 +24,8 @@ constexpr Column corner_of[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 class SkinBuilder {
 public:
-  SkinBuilder(const LayerStack<3>& s, const std::vector<char>& alive, const std::vector<double>& least, ThreadPool& pool)
-      : s_(s), alive_(alive), least_(least), pool_(pool), nx_(s.grid.elements[0]), ny_(s.grid.elements[1]) {}
+  SkinBuilder(const LayerStack<3>& s, const std::vector<char>& alive, const std::vector<double>& least, ThreadPool& pool, const std::vector<double>& own)
+      : s_(s), alive_(alive), least_(least), own_(own.empty() ? least : own), pool_(pool), nx_(s.grid.elements[0]), ny_(s.grid.elements[1]) {}
 
   Skin run() {
     const auto faces = static_cast<std::size_t>(2 * s_.grid.layers), nodes = s_.node(0, 0, 1);
@@ -311,7 +311,7 @@ private:
     const std::size_t bottom = node(first, n, true), top = node(last, n, false);
     const Point off = minus(place(last, n, false), place(first, n, true));
     const double below = s_.rest[2][bottom], above = s_.rest[2][top];
-    const Padding p = padding(least(n), std::min(above - below, std::sqrt(dot(off, off))), below - s_.levels.front(), s_.levels.back() - above);
+    const Padding p = padding(own_[static_cast<std::size_t>(n.j) * static_cast<std::size_t>(nx_ + 1) + static_cast<std::size_t>(n.i)], std::min(above - below, std::sqrt(dot(off, off))), below - s_.levels.front(), s_.levels.back() - above);
     return low ? p.below : p.above;
   }
 
@@ -369,7 +369,7 @@ private:
 
   const LayerStack<3>& s_;
   const std::vector<char>& alive_;
-  const std::vector<double>& least_;
+  const std::vector<double>&least_, &own_;
   ThreadPool& pool_;
   const int nx_, ny_;
   Skin skin_;
@@ -380,8 +380,8 @@ private:
 
 } // namespace
 
-Skin find_skin(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, ThreadPool& pool) {
-  return SkinBuilder(stack, alive, least_thickness, pool).run();
+Skin find_skin(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, ThreadPool& pool, const std::vector<double>& own) {
+  return SkinBuilder(stack, alive, least_thickness, pool, own).run();
 }
 
 } // namespace ballast

@@ -32,8 +32,8 @@ struct Skin {
   std::vector<SkinPatch> patches;
 };
 
-/// The same for any pool.
-Skin find_skin(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, ThreadPool& pool);
+/// `own` as in ale/embed/outline. The same for any pool.
+Skin find_skin(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, ThreadPool& pool, const std::vector<double>& own = {});
 
 /// Weights of a quadrilateral's corners at a place.
 inline std::array<double, 4> corner_weights(double u, double v) { return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v}; }

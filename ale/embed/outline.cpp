@@ -26,7 +26,8 @@ struct OnPlane {
 
 class OutlineBuilder {
 public:
-  OutlineBuilder(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least) : s_(s), alive_(alive), least_(least) {
+  OutlineBuilder(const LayerStack<2>& s, const std::vector<char>& alive, const std::vector<double>& least, const std::vector<double>& own)
+      : s_(s), alive_(alive), least_(least), own_(own.empty() ? least : own) {
     const int layers = s.grid.layers, nodes = s.grid.elements[0] + 1;
     for (auto& gap : gap_) {
       gap.assign(static_cast<std::size_t>(layers * nodes), apart);
@@ -139,7 +140,7 @@ private:
     }
     const std::size_t bottom = s_.node(i, 0, plane(first, true)), top = s_.node(i, 0, plane(last, false));
     const double below = s_.rest[1][bottom], above = s_.rest[1][top], now = distance(place(i, plane(first, true)), place(i, plane(last, false)));
-    const Padding p = padding(least_[at(i)], std::min(above - below, now), below - s_.levels.front(), s_.levels.back() - above);
+    const Padding p = padding(own_[at(i)], std::min(above - below, now), below - s_.levels.front(), s_.levels.back() - above);
     return low ? p.below : p.above;
   }
 
@@ -236,15 +237,15 @@ private:
 
   const LayerStack<2>& s_;
   const std::vector<char>& alive_;
-  const std::vector<double>& least_;
+  const std::vector<double>&least_, &own_;
   std::array<std::vector<double>, 2> gap_; ///< m: over nodes of lower and upper faces
   std::vector<std::vector<int>> ends_;     ///< by layer: nodes where its runs end
 };
 
 } // namespace
 
-std::vector<Outline> find_outlines(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness) {
-  return OutlineBuilder(stack, alive, least_thickness).run();
+std::vector<Outline> find_outlines(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, const std::vector<double>& own) {
+  return OutlineBuilder(stack, alive, least_thickness, own).run();
 }
 
 } // namespace ballast

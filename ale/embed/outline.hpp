@@ -26,6 +26,7 @@ struct OutlineVertex {
 /// Along a layer's lower face, up the rim, back along the upper face; closed.
 using Outline = std::vector<OutlineVertex>;
 
-std::vector<Outline> find_outlines(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness);
+/// `own` (m, by node of a plane): what the stack itself must be thick, where others lie against it; empty: all of `least_thickness`.
+std::vector<Outline> find_outlines(const LayerStack<2>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, const std::vector<double>& own = {});
 
 } // namespace ballast

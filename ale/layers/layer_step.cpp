@@ -75,13 +75,13 @@ template <int Dim> void stop_at_axis(LayerStack<Dim>& s, double dt) {
   }
 }
 
-template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact, LayerLoad<Dim>* load) {
+template <int Dim> void begin_substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, LayerLoad<Dim>* load) {
   kick(s, dt / 2, ledger, pool);
   keep_velocity(s);
   stop_folds<Dim>(s, dt, held_nodes(s), ledger, pool, load);
-  if (contact) {
-    contact();
-  }
+}
+
+template <int Dim> void end_substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, LayerLoad<Dim>* load) {
   stop_at_axis(s, dt);
   book_contact(s, dt, ledger, pool);
   book_work(s, dt / 2, ledger, pool);
@@ -97,6 +97,14 @@ template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledg
   book_work(s, dt / 2, ledger, pool);
   kick(s, dt / 2, ledger, pool);
   s.step = dt;
+}
+
+template <int Dim> void substep(LayerStack<Dim>& s, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact, LayerLoad<Dim>* load) {
+  begin_substep(s, dt, ledger, pool, load);
+  if (contact) {
+    contact();
+  }
+  end_substep(s, dt, ledger, pool, load);
 }
 
 template <int Dim> LayerTotals totals(const LayerStack<Dim>& s) {
@@ -137,7 +145,11 @@ template void drift<2>(LayerStack<2>&, double, ThreadPool&);
 template void drift<3>(LayerStack<3>&, double, ThreadPool&);
 template void stop_at_axis<2>(LayerStack<2>&, double);
 template void stop_at_axis<3>(LayerStack<3>&, double);
+template void begin_substep<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&, LayerLoad<2>*);
+template void end_substep<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&, LayerLoad<2>*);
 template void substep<2>(LayerStack<2>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&, LayerLoad<2>*);
+template void begin_substep<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&, LayerLoad<3>*);
+template void end_substep<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&, LayerLoad<3>*);
 template void substep<3>(LayerStack<3>&, double, LayerLedger&, ThreadPool&, const std::function<void()>&, LayerLoad<3>*);
 template LayerTotals totals<2>(const LayerStack<2>&);
 template LayerTotals totals<3>(const LayerStack<3>&);

@@ -38,7 +38,13 @@ template <int Dim> void drift(LayerStack<Dim>& stack, double dt, ThreadPool& poo
 /// where cloth has no strength when pressed in its plane nothing else does, and elements would turn inside out. An impact: contact_loss.
 template <int Dim> void stop_at_axis(LayerStack<Dim>& stack, double dt);
 
-/// One step of all phases; contact() is called between the first kick and the drift. `load` is on the stack (ale/layers/layer_load).
+/// The step up to contact: the first kick, and edges that would fold. `load` is on the stack (ale/layers/layer_load).
+template <int Dim> void begin_substep(LayerStack<Dim>& stack, double dt, LayerLedger& ledger, ThreadPool& pool, LayerLoad<Dim>* load = nullptr);
+
+/// The step from contact on.
+template <int Dim> void end_substep(LayerStack<Dim>& stack, double dt, LayerLedger& ledger, ThreadPool& pool, LayerLoad<Dim>* load = nullptr);
+
+/// One step of all phases of a stack alone; contact() is called between the first kick and the drift.
 template <int Dim> void substep(LayerStack<Dim>& stack, double dt, LayerLedger& ledger, ThreadPool& pool, const std::function<void()>& contact = {}, LayerLoad<Dim>* load = nullptr);
 
 /// Sums over nodes and elements, in their order. Around an axis momentum is along it only, and has no moment.

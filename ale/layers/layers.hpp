@@ -9,6 +9,13 @@
 
 namespace ballast {
 
+/// Contact of a stack's layer with one of another stack.
+template <int Dim> struct StackContact {
+  int other = 0;                  ///< the other stack's number in the scene
+  int layer = 0, other_layer = 0;
+  ContactState<Dim> state;
+};
+
 template <int Dim> struct Layers {
   LayerStack<Dim> stack;
   LayerLedger ledger;
@@ -20,9 +27,10 @@ template <int Dim> struct Layers {
   SlidelineState<Dim> slidelines;
   std::vector<char> above; ///< by block: does the stack lie above it, along the last axis, at the start?
   std::vector<ContactState<Dim>> with_blocks; ///< by block, side and layer, as ale/layer_coupling counts them
+  std::vector<StackContact<Dim>> with_stacks; ///< with those of a higher number
   double closing = 0;   ///< largest approach in a substep by a layer's thickness
   long steps = 0;       ///< substeps so far
-  double seconds = 0, contact_seconds = 0; ///< s of the clock on the wall, this run: steps of the layers with contact; contact
+  double seconds = 0, contact_seconds = 0; ///< s of the clock on the wall, this run: steps of the layers without contact; contact
 };
 
 } // namespace ballast
