@@ -98,8 +98,11 @@ template <int Dim> void find_active(const TissueRun<Dim>& run, const TissueField
   }
 }
 
-/// A remap limits each component by itself: where neighbours differ by large strains a tensor may come out not positive
-/// definite. Drawn to rest until it is.
+/// A mean of positive definite tensors of determinant 1 is one, of a determinant of at least 1.
+bool may_be_mixed(const Sym& t) { return positive_definite(t) && determinant(t) > 0.5; }
+
+/// A remap limits each component by itself: where neighbours differ by large strains a tensor may come out as no mixture of
+/// theirs. Drawn to rest until it may be one: near zero determinant it would be made unimodular by a huge factor.
 long repair(const TissueLaw& law, const ViscoRow& row, std::size_t i) {
   if (!std::holds_alternative<BergstroemBoyce>(law)) {
     return 0;
@@ -107,10 +110,10 @@ long repair(const TissueLaw& law, const ViscoRow& row, std::size_t i) {
   long repaired = 0;
   for (std::size_t first = 0; first < 12; first += 6) {
     Sym t = load_sym(row, first, i);
-    if (positive_definite(t)) {
+    if (may_be_mixed(t)) {
       continue;
     }
-    for (int k = 0; k < 60 && !positive_definite(t); ++k) {
+    for (int k = 0; k < 60 && !may_be_mixed(t); ++k) {
       t = combine(0.5, t, 0.5, unit_sym);
     }
     store_sym(row, first, i, t);

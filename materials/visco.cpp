@@ -27,8 +27,10 @@ void strain_one(const FungQlv& m, const Sym& strain, std::span<double> state) {
   const Sym e = tensor_of(state, 0);
   set_tensor(state, 0, combine(1, e, std::exp(-m.stiffening * contract(e, e)), strain));
 }
+/// Where chains are long a strain counts for more.
 void strain_one(const BergstroemBoyce&, const Sym& strain, std::span<double> state) {
-  Mat f = full(strain);
+  const double longest = std::max(trace(tensor_of(state, 0)), trace(tensor_of(state, 6)));
+  Mat f = full(scaled(3 / std::max(3.0, longest), strain));
   for (const std::size_t a : {0, 4, 8}) {
     f[a] += 1;
   }
