@@ -1,6 +1,7 @@
 // Laws of viscoelastic material in the step: a cell is a material point, and its energies balance.
 #include "tests/ale/tissue_blocks.hpp"
 
+#include "ale/rest.hpp"
 #include "ale/strength_update.hpp"
 #include "ale/tissue_update.hpp"
 #include "ale/traction.hpp"
@@ -221,6 +222,19 @@ TEST(TissueStep, FreeingLongChainsDoesNotOvershoot) {
   }
   EXPECT_LT(before, 1e-3 * start);
   EXPECT_FALSE(sums.trouble);
+}
+
+TEST(TissueStep, ACellThatHoldsFreeEnergyStaysAwakeWithoutStress) {
+  for (const bool holds : {false, true}) {
+    Scene<2> scene = tissue_scene<2>(tissue_of(few_laws()[0]), {even_lines(0, 1, 200), even_lines(0, 1, 1), {}});
+    prepare(scene);
+    Block<2>& b = scene.blocks[0];
+    b.materials[0].store.row(field::free_energy<2>, b.grid.cell_row(0, 0))[100] = holds ? 1e-9 : 0;
+    for (int step = 0; step < 4; ++step) {
+      follow_rest(scene, b, false);
+    }
+    EXPECT_EQ(b.awake.share() > 0, holds);
+  }
 }
 
 TEST(TissueStep, WhatIsNotPositiveDefiniteIsDrawnToRestAndBooked) {
