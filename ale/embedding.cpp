@@ -94,7 +94,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
   std::vector<std::vector<NodeFoot<Dim>>> found(static_cast<std::size_t>(rows)); // by row of nodes
   std::vector<std::vector<int>> unknown(static_cast<std::size_t>(rows));
   std::vector<char> holds(static_cast<std::size_t>(rows), 0);
-  using Starts = std::vector<std::array<int, 2>>; // by body: where the last node's feet are, the other side's second
+  using Starts = std::vector<std::array<int, 3>>; // by body: where the last node's feet are, the nearest, and those on side 0 and 1
   const auto foot_of = [&](std::size_t body, const std::array<double, Dim>& x, double reach, BodyFoot<Dim>& f, int side, int& start) {
     if constexpr (Dim == 3) {
       return bodies[body].foot(x, reach, f, side, &start);
@@ -134,7 +134,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       feet.push_back(best);
       BodyFoot<Dim> far;
       const auto body = static_cast<std::size_t>(best.stack);
-      if (!(level > 0) && best.foot.side < 2 && foot_of(body, x, through_in_edges * edge, far, 1 - best.foot.side, starts[body][1])) {
+      if (!(level > 0) && best.foot.side < 2 && foot_of(body, x, through_in_edges * edge, far, 1 - best.foot.side, starts[body][static_cast<std::size_t>(2 - best.foot.side)])) {
         feet.back().other = static_cast<int>(feet.size());
         feet.push_back({far, best.stack, r, i, -1, false, {}, {}});
       }
@@ -143,17 +143,15 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
     level = reach;
     unknown[static_cast<std::size_t>(j + k * (g.cells[1] + 1))].push_back(i);
   };
-  pool.run([&](int t) { // in turn: rows near bodies lie together
-    for (int row = t; row < rows; row += pool.size()) {
-      const double* across = position[Dim - 1].row(g.node_row(row % (g.cells[1] + 1), row / (g.cells[1] + 1)));
-      const auto ends = std::minmax_element(across, across + g.cells[0] + 1);
-      if (!near(*ends.first, *ends.second, longest)) {
-        continue;
-      }
-      Starts starts(bodies.size(), {-1, -1});
-      for (int i = 0; i <= g.cells[0]; ++i) {
-        level_of(i, row % (g.cells[1] + 1), row / (g.cells[1] + 1), found[static_cast<std::size_t>(row)], starts);
-      }
+  parallel_turns(pool, rows, [&](int row) { // rows near bodies lie together
+    const double* across = position[Dim - 1].row(g.node_row(row % (g.cells[1] + 1), row / (g.cells[1] + 1)));
+    const auto ends = std::minmax_element(across, across + g.cells[0] + 1);
+    if (!near(*ends.first, *ends.second, longest)) {
+      return;
+    }
+    Starts starts(bodies.size(), {-1, -1, -1});
+    for (int i = 0; i <= g.cells[0]; ++i) {
+      level_of(i, row % (g.cells[1] + 1), row / (g.cells[1] + 1), found[static_cast<std::size_t>(row)], starts);
     }
   });
   SignFinder<Dim> signs(g);

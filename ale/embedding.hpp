@@ -74,6 +74,9 @@ struct Pocket {
 /// Kinds of cells: from 0 on the number of a cut cell.
 inline constexpr int open_cell = -1, covered_cell = -2;
 
+/// Of the room that a cell's materials fill: what a body may take of it in a step of natural length beyond its motion, where its shape jumps.
+inline constexpr double most_squeeze = 0.002;
+
 template <int Dim> struct Embedding {
   int block = 0;
   /// m, by stack and node of its planes: what a body must have there not to slip through cells (ale/embed/layer_body).
@@ -90,6 +93,7 @@ template <int Dim> struct Embedding {
   double seconds = 0;                   ///< s of the clock on the wall, this run
   std::array<std::vector<char>, Dim> closed; ///< faces, at the cell above, that the remap's sweeps leave alone
   double least_width = 0;    ///< m: shortest edge of a cut cell
+  double squeeze = most_squeeze; ///< of this step; while it begins, of the last one
 
   std::vector<CutForce<Dim>> force; ///< by cut cell
   std::vector<Pocket> pockets;      ///< of the last remap
@@ -158,9 +162,6 @@ template <int Dim> double face_opening(const Grid& grid, const Levels<Dim>& leve
 /// Cut cells that are open by less than this share of the whole are slivers: they share their state with a root.
 inline constexpr double sliver_share = 0.5;
 
-/// Of the room that a cell's materials fill: what a body may take of it in a step beyond its motion, where its shape jumps.
-inline constexpr double most_squeeze = 0.002;
-
 /// Kinds and cut cells from levels. The same for any pool.
 template <int Dim>
 void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, const Levels<Dim>& levels, ThreadPool& pool, std::vector<int>& kind, std::vector<CutCell<Dim>>& cut);
@@ -168,11 +169,24 @@ void find_cells(const Block<Dim>& b, const std::array<RowField, Dim>& position, 
 /// What bodies must have where they are now not to slip through cells of the mesh that remaps lead to.
 template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<Dim>& e);
 
-/// Levels and cells anew, from nothing but where everything is: at the start of a run and of its continuation.
+/// What a step reads of the one before, beyond where everything is.
+struct EmbeddingMemory {
+  std::vector<std::vector<char>> alive; ///< Embedding::alive
+  std::vector<std::int64_t> cells;      ///< Embedding::cell_at of those that were not open
+  Span rows;                            ///< Embedding::rows
+  std::vector<Pocket> pockets;
+};
+template <int Dim> EmbeddingMemory memory_of(const Embedding<Dim>& e);
+
+/// Levels and cells anew, from where everything is: at the start of a run, and of its continuation with what it remembers.
 template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e);
+template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e, const EmbeddingMemory& memory);
 
 /// Makes the block's cells hold what fits beside the bodies: once, at the start. Void gives way first.
 template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e);
+
+/// A step dt (s) far below the usual squeezes less: else one that has fallen falls on by the pressure that this makes.
+template <int Dim> void set_squeeze(const Scene<Dim>& scene, Embedding<Dim>& e, double dt);
 
 /// Start of a step: levels, cut cells; void takes the room of elements that have gone.
 template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e);

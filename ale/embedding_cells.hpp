@@ -96,11 +96,9 @@ template <int Dim> RowsBeside rows_beside(const Grid& g, const Span& rows) {
 
 /// Calls body(n, j, k) for those rows on all threads, which take turns: n counts them. It may change its own row only.
 template <class Visit> void parallel_rows(ThreadPool& pool, const RowsBeside& rows, Visit&& body) {
-  pool.run([&](int t) {
-    for (int n = t; n < rows.count(); n += pool.size()) {
-      const auto [j, k] = rows.at(n);
-      body(n, j, k);
-    }
+  parallel_turns(pool, rows.count(), [&](int n) {
+    const auto [j, k] = rows.at(n);
+    body(n, j, k);
   });
 }
 

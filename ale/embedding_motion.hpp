@@ -94,7 +94,7 @@ template <int Dim> Pool pool_of(const Scene<Dim>& scene, const Embedding<Dim>& e
     root.cell = c.root_cell;
     root.foot.fill(-1);
     if (kind >= 0) {
-      root = e.cut[static_cast<std::size_t>(kind)];
+      root.foot = e.cut[static_cast<std::size_t>(kind)].foot;
     }
     const auto u = corner_velocities<Dim>(b.grid, b.velocity, c.root_cell);
     pool.volume += b.volume.row(r)[c.root_cell[0]];

@@ -143,7 +143,7 @@ template <int Dim> bool EmbeddedRemap<Dim>::at_rest(const std::vector<std::size_
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::give_room(std::size_t root, const std::vector<std::size_t>& members) {
-  constexpr double keeps = 1 - most_squeeze;
+  const double keeps = 1 - e_.squeeze;
   double room_there = 0, filled = 0;
   for (const std::size_t c : members) {
     room_there += room(c);

@@ -316,8 +316,8 @@ template <int Dim> void EmbeddedRemap<Dim>::keep_swept_rooms() {
     if (special_[dense(cells_[c])] == 0 || !(open > 0) || !(swept > 0)) {
       continue;
     }
-    const double slack = most_squeeze * whole_of(target_, cells_[c]), gap = std::max(at(c, materials() - 1, 0), 0.0);
-    const double least = std::max(swept - gap - slack, 0.5 * open), most = gap > slack ? open : swept + slack;
+    const double whole = whole_of(target_, cells_[c]), slack = most_squeeze * whole, gap = std::max(at(c, materials() - 1, 0), 0.0);
+    const double least = std::max(swept - gap - e_.squeeze * whole, 0.5 * open), most = gap > slack ? open : swept + slack;
     to_volume_[c] = std::clamp(open, least, std::max(least, most));
   }
 }

@@ -98,107 +98,6 @@ template <int Dim> static void find_roots(const Block<Dim>& b, Embedding<Dim>& e
   }
 }
 
-/// Longest edges along each axis (m) of the cells around a place in the mesh that remaps lead to: of its own and two on either side.
-template <int Dim> class EdgeFinder {
-public:
-  explicit EdgeFinder(const Block<Dim>& b) {
-    const Grid& g = b.grid;
-    for (std::size_t a = 0; a < Dim; ++a) {
-      for (int n = 0; n <= g.cells[a]; ++n) {
-        const int r = g.node_row(a == 1 ? n : 0, a == 2 ? n : 0);
-        lines_[a].push_back(b.target[a].row(r)[a == 0 ? n : 0]);
-      }
-      for (int own = 0; own < g.cells[a]; ++own) {
-        double longest = 0;
-        for (int c = std::max(0, own - 2); c <= std::min(g.cells[a] - 1, own + 2); ++c) {
-          longest = std::max(longest, lines_[a][static_cast<std::size_t>(c + 1)] - lines_[a][static_cast<std::size_t>(c)]);
-        }
-        longest_[a].push_back(longest);
-      }
-    }
-  }
-  std::array<double, Dim> at(const std::array<double, Dim>& x) const {
-    std::array<double, Dim> longest{};
-    for (std::size_t a = 0; a < Dim; ++a) {
-      const std::vector<double>& line = lines_[a];
-      const auto own = std::upper_bound(line.begin(), line.end(), x[a]) - line.begin() - 1;
-      longest[a] = longest_[a][static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(own, 0, static_cast<std::ptrdiff_t>(line.size()) - 2))];
-    }
-    return longest;
-  }
-
-private:
-  std::array<std::vector<double>, Dim> lines_, longest_;
-};
-
-/// Across the lower or upper face of an element, not unit.
-template <int Dim> std::array<double, Dim> across_face(const LayerStack<Dim>& s, int i, int j, int plane) {
-  const auto from = [&](int a, int b, int c, int d) { // one node to another
-    const std::size_t low = s.node(i + a, j + b, plane), high = s.node(i + c, j + d, plane);
-    std::array<double, Dim> out{};
-    for (std::size_t n = 0; n < Dim; ++n) {
-      out[n] = s.position[n][high] - s.position[n][low];
-    }
-    return out;
-  };
-  const std::array<double, Dim> u = from(0, 0, 1, Dim == 3 ? 1 : 0);
-  if constexpr (Dim == 2) {
-    return {-u[1], u[0]};
-  } else {
-    const std::array<double, Dim> v = from(1, 0, 0, 1);
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  }
-}
-
-/// No cell may have open corners on both sides of a body: across it the body is as thick as the cells around it are wide, wherever it is by now.
-template <int Dim> void find_least_thickness(const Scene<Dim>& scene, Embedding<Dim>& e) {
-  constexpr double spare = 1.4; // cells are stretched until the next remap, layers bend
-  const EdgeFinder<Dim> edges(scene.blocks[static_cast<std::size_t>(e.block)]);
-  e.bin = std::numeric_limits<double>::infinity();
-  e.longest_edge = 0;
-  e.least_thickness.clear();
-  for (std::size_t q = 0; q < scene.layers.size(); ++q) {
-    const LayerStack<Dim>& s = scene.layers[q].stack;
-    const std::size_t count = s.node(0, 0, 1);
-    std::vector<double> thickness(count, 0.0);
-    const auto visit = [&](std::size_t n, const std::array<double, Dim>& across, double length) {
-      std::array<double, Dim> x{};
-      for (std::size_t d = 0; d < Dim; ++d) {
-        x[d] = s.position[d][n];
-      }
-      const std::array<double, Dim> edge = edges.at(x);
-      double width = 0, longest = 0;
-      for (std::size_t d = 0; d < Dim; ++d) {
-        width += length > 0 ? std::abs(across[d]) / length * edge[d] : edge[d];
-        longest = std::max(longest, edge[d]);
-      }
-      thickness[n % count] = std::max(thickness[n % count], spare * width);
-      e.bin = std::min(e.bin, 2 * longest);
-      e.longest_edge = std::max(e.longest_edge, longest);
-    };
-    for (int level = 0; level < s.grid.levels(); ++level) {
-      for (int j = 0; j < (Dim == 3 ? s.grid.elements[1] : 1); ++j) {
-        for (int i = 0; i < s.grid.elements[0]; ++i) {
-          if (e.alive[q][s.element(i, j, level)] == 0) {
-            continue;
-          }
-          for (const int plane : {s.plane_below(level), s.plane_below(level) + 1}) {
-            const std::array<double, Dim> across = across_face<Dim>(s, i, j, plane);
-            double square = 0;
-            for (const double a : across) {
-              square += a * a;
-            }
-            for (int corner = 0; corner < (1 << (Dim - 1)); ++corner) {
-              visit(s.node(i + (corner & 1), j + (corner >> 1), plane), across, std::sqrt(square));
-            }
-          }
-        }
-      }
-    }
-    e.least_thickness.push_back(std::move(thickness));
-  }
-}
-
 /// True if elements have gone since.
 template <int Dim> static bool keep_alive(const Scene<Dim>& scene, Embedding<Dim>& e) {
   const auto before = std::exchange(e.alive, {});
@@ -208,13 +107,38 @@ template <int Dim> static bool keep_alive(const Scene<Dim>& scene, Embedding<Dim
   return e.alive != before;
 }
 
-template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e) {
-  keep_alive(scene, e);
+template <int Dim> static void find_bodies_of_alive(Scene<Dim>& scene, Embedding<Dim>& e) {
   find_least_thickness(scene, e);
   Block<Dim>& b = scene.blocks[static_cast<std::size_t>(e.block)];
   e.now = find_levels<Dim>(b.grid, b.position, bodies_of(scene, e), *scene.pool);
   find_cells<Dim>(b, b.position, e.now, *scene.pool, e.kind, e.cut);
   e.rows = e.now.rows;
+}
+
+template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e) {
+  keep_alive(scene, e);
+  find_bodies_of_alive(scene, e);
+}
+
+template <int Dim> EmbeddingMemory memory_of(const Embedding<Dim>& e) {
+  EmbeddingMemory out{e.alive, {}, e.rows, e.pockets};
+  for (std::size_t c = 0; c < e.kind.size(); ++c) {
+    if (e.kind[c] != open_cell) {
+      out.cells.push_back(static_cast<std::int64_t>(c));
+    }
+  }
+  return out;
+}
+
+template <int Dim> void find_bodies(Scene<Dim>& scene, Embedding<Dim>& e, const EmbeddingMemory& memory) {
+  e.alive = memory.alive;
+  e.pockets = memory.pockets;
+  find_bodies_of_alive(scene, e);
+  e.rows = both_rows(e.rows, memory.rows);
+  for (const std::int64_t c : memory.cells) { // the next step frees those that have become open
+    int& kind = e.kind.at(static_cast<std::size_t>(c));
+    kind = kind == open_cell ? covered_cell : kind;
+  }
 }
 
 template <int Dim> void prepare_embedding(Scene<Dim>& scene, Embedding<Dim>& e) {
@@ -252,12 +176,22 @@ template <int Dim> static bool take_room(Block<Dim>& b, Embedding<Dim>& e) {
     double& volume = b.volume.row(r)[i];
     if (std::abs(c.open - volume) > 1e-12 * c.whole) {
       const std::vector<double> parts = holds_mass(b, r, i) ? volumes_of(b, r, i, volume) : std::vector<double>(b.materials.size(), 0.0);
-      volume = std::max(c.open, (1 - most_squeeze) * (volume - parts.back()));
+      volume = std::max(c.open, (1 - e.squeeze) * (volume - parts.back()));
       set_volumes(b, r, i, volume, parts);
       changed = true;
     }
   }
   return changed;
+}
+
+template <int Dim> void set_squeeze(const Scene<Dim>& scene, Embedding<Dim>& e, double dt) {
+  constexpr double usual = 0.05; // of the time sound takes through the finest cell: ordinary steps are longer
+  double square = 0;             // of the fastest material's sound speed at the start
+  for (const MaterialSlot& slot : scene.blocks[static_cast<std::size_t>(e.block)].materials) {
+    square = slot.is_void ? square : std::max(square, sound_speed_squared(slot.material.eos, slot.reference.rho, slot.reference.e));
+  }
+  const double width = 0.5 * e.bin;
+  e.squeeze = most_squeeze * std::min(1.0, dt * std::sqrt(square) / (usual * width));
 }
 
 template <int Dim> void update_cells(Scene<Dim>& scene, Embedding<Dim>& e) {
@@ -346,7 +280,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
     const double moved = kind >= 0 ? 2 * (e.force[static_cast<std::size_t>(kind)].half.volume - e.cut[static_cast<std::size_t>(kind)].open) : 0.0;
     const double most = alone ? held * (1 + largest_jump) : std::max(old + moved, held) + largest_jump * old;
     const double pressed = kind >= 0 ? moved : -old * entered<Dim>(scene, e, b, {i, j, k});
-    const double least = (1 - most_squeeze) * std::min(old + pressed, held);
+    const double least = (1 - e.squeeze) * std::min(old + pressed, held);
     volume = open > 0 ? std::clamp(open, least, std::max({most, least, gap > 0 ? open : 0.0})) : old;
     if (kind >= 0 && is_sliver(e, b, r, i)) { // as a pure one is; a mixed one's follows
       e.cut[static_cast<std::size_t>(kind)].scaled = volume / old;
@@ -360,9 +294,11 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
 }
 
 #define BALLAST_INSTANTIATE(D) \
-  template void find_least_thickness<D>(const Scene<D>&, Embedding<D>&); \
   template void find_bodies<D>(Scene<D>&, Embedding<D>&); \
+  template void find_bodies<D>(Scene<D>&, Embedding<D>&, const EmbeddingMemory&); \
+  template EmbeddingMemory memory_of<D>(const Embedding<D>&); \
   template void prepare_embedding<D>(Scene<D>&, Embedding<D>&); \
+  template void set_squeeze<D>(const Scene<D>&, Embedding<D>&, double); \
   template void update_cells<D>(Scene<D>&, Embedding<D>&); \
   template void embedded_volumes<D>(Scene<D>&, Embedding<D>&);
 BALLAST_INSTANTIATE(2)

@@ -259,9 +259,8 @@ BoundaryEffect force_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
   return total;
 }
 
-/// Worst V_new / V of the block and where.
 struct WorstCell {
-  double ratio = 1;
+  double ratio = 1; ///< V_new / V
   std::array<int, 3> cell = {-1, -1, -1};
 };
 
@@ -294,8 +293,7 @@ template <int Dim> WorstCell move_cells(Scene<Dim>& scene, Block<Dim>& b) {
   return least;
 }
 
-/// Layers move and touch the blocks, whose cells then move anew. False: a mesh with layers inside would turn a cell inside out, and the
-/// step is to be taken again, smaller, from layers and ledger as they were.
+/// Layers move and touch the blocks, whose cells then move anew. False: a mesh with layers inside is to take the step again, smaller, with layers and ledger as they were.
 template <int Dim> bool move_layers(Scene<Dim>& scene, const Clock& clock, bool again) {
   if (scene.layers.empty()) {
     return true;
@@ -318,6 +316,7 @@ template <int Dim> bool move_layers(Scene<Dim>& scene, const Clock& clock, bool 
     }
   }
   for (const auto& e : scene.embedded) {
+    set_squeeze(scene, *e, clock.dt);
     embedded_volumes(scene, *e);
   }
   return true;
@@ -325,12 +324,13 @@ template <int Dim> bool move_layers(Scene<Dim>& scene, const Clock& clock, bool 
 
 constexpr double smallest_volume_ratio = 0.2; // of one step; below it the step is retried smaller
 constexpr int most_retries = 30;
+
 } // namespace
 
 template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
   std::vector<BoundaryEffect> effects(scene.blocks.size());
-  const std::vector<Layers<Dim>> layers = scene.embedded.empty() ? std::vector<Layers<Dim>>{} : scene.layers; // as they were
-  const Ledger ledger = scene.ledger;
+  const auto layers = scene.embedded.empty() ? std::vector<Layers<Dim>>{} : scene.layers;
+  const Ledger ledger = scene.ledger; // both as they were
   for (int attempt = 0;; ++attempt) {
     WorstCell worst;
     std::size_t where = 0;

@@ -27,6 +27,7 @@ template <int Dim> void check_step(const Scene<Dim>& scene, const DtLimit& stabl
 
 template <int Dim> void advance(Scene<Dim>& scene, Clock& clock) {
   for (const auto& e : scene.embedded) {
+    set_squeeze(scene, *e, clock.dt);
     update_cells(scene, *e);
     tie_nodes(scene, *e);
   }

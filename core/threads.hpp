@@ -46,4 +46,13 @@ template <class Body> void parallel_ranges(ThreadPool& pool, int count, Body&& b
   });
 }
 
+/// Calls body(n) for n of [0, count); threads take turns: for work that is dear in places.
+template <class Body> void parallel_turns(ThreadPool& pool, int count, Body&& body) {
+  pool.run([&](int t) {
+    for (int n = t; n < count; n += pool.size()) {
+      body(n);
+    }
+  });
+}
+
 } // namespace ballast

@@ -98,7 +98,10 @@ double worst_cell_norm(N_Vector v, N_Vector weight) {
     for (std::size_t a = at; a < at + 6; ++a) {
       sum += x[a] * w[a] * x[a] * w[a];
     }
-    worst = sum <= worst ? worst : sum; // NaN gets through
+    if (sum != sum) {
+      return sum; // no number in any cell is none for all
+    }
+    worst = std::max(worst, sum);
   }
   return std::sqrt(worst / 6);
 }

@@ -47,7 +47,9 @@ BranchStep step_branch(const FungQlv& m, const Ends& ends, const Sym& q_n, doubl
   const double dual_n = dual_energy(m, q_n), dual = dual_energy(m, q);
   const double energy_n = elastic_energy(m, ends.strain_n), energy = elastic_energy(m, ends.strain);
   const double heat = contract(climb, combine(1, q, -1, mean)) + contract(ends.strain_n, change) - (dual - dual_n);
-  return {q, energy + dual - contract(q, ends.strain), std::max(0.0, heat), energy - energy_n - contract(mean, climb)};
+  // Where a step is so stiff that the curvature within it makes heat negative, the work takes what is missing: second order, and the balance holds.
+  const double missing = std::max(0.0, -heat);
+  return {q, energy + dual - contract(q, ends.strain), heat + missing, energy - energy_n - contract(mean, climb) + missing};
 }
 
 } // namespace

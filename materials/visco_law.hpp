@@ -2,7 +2,8 @@
 //
 // State: plain rows of doubles, state_count of them (six a tensor), named by state_names, set_rest at the start. All may be
 // mixed by mass in a remap: deviators and strains are mean values; Bergstroem-Boyce tensors stay positive definite and are
-// made unimodular at the start of the next step. Free energy is convex in the state, so a mean holds less than its parts.
+// made unimodular at the start of the next step. A mean's free energy is not its parts' mean: less, but for Fung's
+// law of either sign.
 #pragma once
 
 #include "materials/visco_bergstroem_boyce.hpp"

@@ -63,4 +63,29 @@ std::vector<int> listed_bodies(Deck& deck, DeckNode& list, const SceneSpec& scen
   return bodies;
 }
 
+std::vector<int> listed_materials(Deck& deck, DeckNode* list, const SceneSpec& scene) {
+  std::vector<int> order;
+  std::vector<std::string> names;
+  for (const Material& m : scene.materials) {
+    names.push_back(m.name);
+  }
+  for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
+    DeckNode& item = list->items[i];
+    const auto at = std::find(names.begin(), names.end(), item.text);
+    const int index = static_cast<int>(at - names.begin());
+    if (at == names.end() && bodies_missing(deck, scene)) {
+      continue; // it may be of one of those
+    }
+    if (at == names.end() || std::find(order.begin(), order.end(), index) != order.end()) {
+      deck.fail(item,
+                at == names.end() ? fmt::format("\"{}\" is in no body", item.text)
+                                  : fmt::format("\"{}\" is listed twice", item.text),
+                one_of(names) + ", each once");
+      continue;
+    }
+    order.push_back(index);
+  }
+  return order;
+}
+
 } // namespace ballast

@@ -3,6 +3,7 @@
 #include "core/deck_keys.hpp"
 #include "materials/fabric_library.hpp"
 #include "materials/library.hpp"
+#include "problems/injury_criteria.hpp"
 #include "problems/scene_keys.hpp"
 #include "problems/scene_reader.hpp"
 #include "problems/scene_report.hpp"
@@ -46,6 +47,11 @@ int materials_command(const std::string& name) {
 
 int deck_reference_command() {
   fmt::print("{}", scene_keys::reference());
+  return static_cast<int>(ExitStatus::finished);
+}
+
+int injury_reference_command() {
+  fmt::print("{}", injury_reference());
   return static_cast<int>(ExitStatus::finished);
 }
 

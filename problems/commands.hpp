@@ -54,5 +54,7 @@ int check_command(const CheckOptions& options);
 int materials_command(const std::string& name);
 /// Prints docs/deck.md.
 int deck_reference_command();
+/// Prints the table of docs/injury.md.
+int injury_reference_command();
 
 } // namespace ballast

@@ -177,6 +177,49 @@ template <int Dim> void get_layers(const io::CheckpointReader& in, std::vector<L
   }
 }
 
+template <int Dim> void put_embedded(io::CheckpointWriter& out, const Scene<Dim>& scene) {
+  for (std::size_t q = 0; q < scene.embedded.size(); ++q) {
+    const EmbeddingMemory memory = memory_of(*scene.embedded[q]);
+    const std::string base = fmt::format("embedded_{}/", q);
+    for (std::size_t s = 0; s < memory.alive.size(); ++s) {
+      out.put(base + fmt::format("alive_{}", s), std::vector<std::int64_t>(memory.alive[s].begin(), memory.alive[s].end()));
+    }
+    out.put(base + "cells", memory.cells);
+    out.put(base + "rows", std::vector<std::int64_t>{memory.rows.begin, memory.rows.end});
+    std::vector<double> pockets; // three indices and the volume
+    for (const Pocket& p : memory.pockets) {
+      pockets.insert(pockets.end(), {static_cast<double>(p.cell[0]), static_cast<double>(p.cell[1]), static_cast<double>(p.cell[2]), p.volume});
+    }
+    out.put(base + "pockets", pockets);
+  }
+}
+
+template <int Dim> void get_embedded(const io::CheckpointReader& in, Scene<Dim>& scene) {
+  for (std::size_t q = 0; q < scene.embedded.size(); ++q) {
+    const std::string base = fmt::format("embedded_{}/", q);
+    if (!in.has(base + "cells")) {
+      throw Error(fmt::format("the checkpoint holds no {}: written by a version of the program that kept less; start the deck anew", base));
+    }
+    EmbeddingMemory memory;
+    for (std::size_t s = 0; s < scene.layers.size(); ++s) {
+      const std::vector<std::int64_t> alive = in.get_ints(base + fmt::format("alive_{}", s));
+      memory.alive.emplace_back(alive.begin(), alive.end());
+    }
+    memory.cells = in.get_ints(base + "cells");
+    const std::vector<std::int64_t> rows = in.get_ints(base + "rows");
+    memory.rows = {static_cast<int>(rows.at(0)), static_cast<int>(rows.at(1))};
+    const std::vector<double> pockets = in.get_doubles(base + "pockets");
+    for (std::size_t n = 0; n + 3 < pockets.size(); n += 4) {
+      memory.pockets.push_back({{static_cast<int>(pockets[n]), static_cast<int>(pockets[n + 1]), static_cast<int>(pockets[n + 2])}, pockets[n + 3]});
+    }
+    find_bodies(scene, *scene.embedded[q], memory);
+  }
+}
+
+template void put_embedded<2>(io::CheckpointWriter&, const Scene<2>&);
+template void put_embedded<3>(io::CheckpointWriter&, const Scene<3>&);
+template void get_embedded<2>(const io::CheckpointReader&, Scene<2>&);
+template void get_embedded<3>(const io::CheckpointReader&, Scene<3>&);
 template void put_layers<2>(io::CheckpointWriter&, const std::vector<Layers<2>>&);
 template void put_layers<3>(io::CheckpointWriter&, const std::vector<Layers<3>>&);
 template void get_layers<2>(const io::CheckpointReader&, std::vector<Layers<2>>&);

@@ -108,6 +108,8 @@ double dome_radius(const BackFaceLine& line, double threshold) {
   return 0;
 }
 
+template <int Dim> double largest_back_face(const LayerStack<Dim>& s, double direction) { return largest_deflection(BackFace<Dim>{s, direction}); }
+
 template <int Dim> LayerMeasure measure_layers(const LayerStack<Dim>& s, double direction) {
   const BackFace<Dim> face{s, direction};
   const int i0 = middle_line(s.lines[0]), j0 = middle_line(s.lines[1]);
@@ -179,6 +181,8 @@ std::filesystem::path back_face_file(const std::filesystem::path& dir, const std
 
 template BackFaceLine back_face_line<2>(const LayerStack<2>&, double, int);
 template BackFaceLine back_face_line<3>(const LayerStack<3>&, double, int);
+template double largest_back_face<2>(const LayerStack<2>&, double);
+template double largest_back_face<3>(const LayerStack<3>&, double);
 template LayerMeasure measure_layers<2>(const LayerStack<2>&, double);
 template LayerMeasure measure_layers<3>(const LayerStack<3>&, double);
 template std::vector<std::string> layer_columns<2>(const LayerStack<2>&);

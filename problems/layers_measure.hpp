@@ -35,6 +35,10 @@ struct LayerMeasure {
   double eroded_mass = 0;        ///< kg (planar: kg/m)
   LayerTotals totals;
 };
+
+/// Largest deflection of any node of the back face, m; without the sums of measure_layers.
+template <int Dim> double largest_back_face(const LayerStack<Dim>& stack, double direction);
+/// All of it.
 template <int Dim> LayerMeasure measure_layers(const LayerStack<Dim>& stack, double direction);
 
 /// A stack's name as it stands in columns.

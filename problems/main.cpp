@@ -104,6 +104,7 @@ int dispatch(int argc, char** argv) {
   sub->add_option("name", material);
 
   word(app, "deck-reference", "", result, ballast::deck_reference_command)->group("");
+  word(app, "injury-reference", "", result, ballast::injury_reference_command)->group("");
 
   try {
     app.parse(argc, argv);

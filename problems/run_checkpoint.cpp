@@ -141,6 +141,7 @@ void write_checkpoint(const std::filesystem::path& path, const Scene<Dim>& scene
     }
   }
   put_layers(out, scene.layers);
+  put_embedded(out, scene);
   out.commit();
 }
 
@@ -212,9 +213,7 @@ void read_checkpoint(const std::filesystem::path& path, Scene<Dim>& scene, Clock
     update_traction(b, *scene.pool);
   }
   get_layers(in, scene.layers);
-  for (const auto& e : scene.embedded) {
-    find_bodies(scene, *e);
-  }
+  get_embedded(in, scene);
 }
 
 template void write_checkpoint<2>(const std::filesystem::path&, const Scene<2>&, const Clock&, const RunMemory&);

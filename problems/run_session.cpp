@@ -37,14 +37,15 @@ double seconds_since(std::chrono::steady_clock::time_point t) {
 template <int Dim>
 RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& dir, int threads, const std::string& restart, const ExactSolver& exact)
     : read_(read), spec_(read.scene), dir_(dir), scene_(build_scene<Dim>(read.scene, threads)), slots_(slot_map(read.scene)),
-      restarted_(!restart.empty()), terminal_(isatty(STDOUT_FILENO) != 0), lateral_(read.scene), layers_(read.scene) {
+      restarted_(!restart.empty()), terminal_(isatty(STDOUT_FILENO) != 0), lateral_(read.scene), layers_(read.scene),
+      injury_(read.scene, slots_.slot) {
   clock_.end_time = spec_.end_time;
   memory_.deck_hash = deck_hash(read);
   if (restarted_) {
     read_checkpoint(restart, scene_, clock_, memory_);
     const auto& o = memory_.observed;
     const std::size_t lateral_at = 5 + 4 * spec_.gauges.size();
-    if (o.size() < lateral_at + lateral_.memory().size() + layers_.memory().size()) { // what stacks remember may be more
+    if (o.size() < lateral_at + lateral_.memory().size() + layers_.memory().size() + injury_.memory().size()) { // what stacks remember may be more
       throw Error(restart + ": the state of a failed run, kept for inspection; restart from a checkpoint.h5 before it");
     }
     dt_min_ = o.at(0);
@@ -57,7 +58,8 @@ RunSession<Dim>::RunSession(const ReadScene& read, const std::filesystem::path& 
       gauge_velocity_.push_back({o.at(6 + 4 * q), o.at(7 + 4 * q), o.at(8 + 4 * q)});
     }
     const std::size_t layers_at = lateral_at + lateral_.recall(std::span(o).subspan(lateral_at));
-    layers_.recall(std::span(o).subspan(layers_at));
+    const std::size_t injury_at = layers_at + layers_.recall(std::span(o).subspan(layers_at));
+    injury_.recall(std::span(o).subspan(injury_at));
   } else {
     const Totals t = totals(scene_.blocks[0]);
     const LayerSums layers = sum_layers(scene_.layers);
@@ -129,6 +131,8 @@ template <int Dim> void RunSession<Dim>::checkpoint() {
   memory.observed.insert(memory.observed.end(), lateral.begin(), lateral.end());
   const std::vector<double> layers = layers_.memory();
   memory.observed.insert(memory.observed.end(), layers.begin(), layers.end());
+  const std::vector<double> injury = injury_.memory();
+  memory.observed.insert(memory.observed.end(), injury.begin(), injury.end());
   write_checkpoint(dir_ / "checkpoint.h5", scene_, clock_, memory);
   last_checkpoint_ = std::chrono::steady_clock::now();
 }
@@ -157,6 +161,7 @@ template <int Dim> bool RunSession<Dim>::record(const Scene<Dim>&, const Clock&)
   dt_first_ = dt_first_ == 0 ? clock_.dt : dt_first_;
   move_gauges();
   layers_.step(scene_);
+  injury_.step(scene_, clock_.time, memory_.gauges);
   const bool end = clock_.done();
   if (spec_.output.history_every <= 0 || clock_.time >= memory_.next_history || end) {
     sample();
@@ -185,6 +190,7 @@ template <int Dim> int RunSession<Dim>::run() {
   start_ = last_progress_ = last_checkpoint_ = std::chrono::steady_clock::now();
   if (!restarted_) {
     layers_.step(scene_);
+    injury_.step(scene_, clock_.time, memory_.gauges);
     sample();
     dump();
     memory_.next_history = spec_.output.history_every;

@@ -4,6 +4,7 @@
 #include "core/io/history.hpp"
 #include "core/io/vtk.hpp"
 #include "problems/exact_solution.hpp"
+#include "problems/injury_record.hpp"
 #include "problems/run_checkpoint.hpp"
 #include "problems/run_attitude.hpp"
 #include "problems/run_layers.hpp"
@@ -68,6 +69,7 @@ private:
   double gauge_time_ = 0;
   LateralRecord lateral_;
   LayersRecord<Dim> layers_;
+  InjuryRecord<Dim> injury_;
   std::chrono::steady_clock::time_point start_, last_progress_, last_checkpoint_;
 };
 

@@ -3,9 +3,11 @@
 
 #include "core/io/summary.hpp"
 #include "problems/commands.hpp"
+#include "problems/injury_report.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
@@ -143,6 +145,10 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
     for (const auto& [name, error] : exact_errors(b, *exact_, clock_.time)) {
       j["results"]["exact"][name] = error;
     }
+  }
+  if (injury_.asked()) {
+    j["injury"] = injury_results(spec_, injury_, {memory_.mass_start, slots_.slot});
+    fmt::print("{}", injury_lines(j["injury"]));
   }
   io::write_text_atomically(dir_ / "summary.json", j.dump(2) + "\n");
 }

@@ -52,6 +52,7 @@ const SectionSpec& top() {
        {.name = "gauge", .kind = tables, .doc = "points that record"},
        {.name = "output", .kind = table, .doc = "what is written and how often"},
        {.name = "results", .kind = table, .doc = "what summary.json reports of this scene"},
+       {.name = "injury", .kind = table, .doc = "injury measures; research output, not medical advice"},
        {.name = "layers", .kind = tables, .doc = "stacks of fabric layers that stay Lagrangian and slide on each other"},
        {.name = "fabrics", .kind = table, .doc = "overrides of named fabrics, and new ones"}}};
   return spec;
@@ -199,7 +200,7 @@ const SectionSpec& gauge() {
         .doc = "what is recorded",
         .fallback = "pressure, velocity",
         .choices = gauge_quantities()},
-       {.name = "filter", .kind = planned, .doc = "CFC filters"}}};
+       {.name = "filter", .kind = planned, .doc = "CFC filters of columns; those of peak accelerations are in [injury]"}}};
   return spec;
 }
 
@@ -282,7 +283,8 @@ std::string reference() {
                               &numerics(),
                               &gauge(),
                               &output(),
-                              &results()});
+                              &results(),
+                              &injury()});
 }
 
 } // namespace ballast::scene_keys

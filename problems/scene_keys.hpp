@@ -39,6 +39,7 @@ const SectionSpec& numerics();
 const SectionSpec& gauge();
 const SectionSpec& output();
 const SectionSpec& results();
+const SectionSpec& injury();
 
 /// docs/deck.md, whole.
 std::string reference();

@@ -42,32 +42,6 @@ void check_melting(Deck& deck, DeckNode& ambient, const SceneSpec& scene) {
   }
 }
 
-/// A list of materials in use, each once, as indices into them.
-std::vector<int> listed_materials(Deck& deck, DeckNode* list, const SceneSpec& scene) {
-  std::vector<int> order;
-  std::vector<std::string> names;
-  for (const Material& m : scene.materials) {
-    names.push_back(m.name);
-  }
-  for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
-    DeckNode& item = list->items[i];
-    const auto at = std::find(names.begin(), names.end(), item.text);
-    const int index = static_cast<int>(at - names.begin());
-    if (at == names.end() && bodies_missing(deck, scene)) {
-      continue; // it may be of one of those
-    }
-    if (at == names.end() || std::find(order.begin(), order.end(), index) != order.end()) {
-      deck.fail(item,
-                at == names.end() ? fmt::format("\"{}\" is in no body", item.text)
-                                  : fmt::format("\"{}\" is listed twice", item.text),
-                one_of(names) + ", each once");
-      continue;
-    }
-    order.push_back(index);
-  }
-  return order;
-}
-
 /// Onion-skin order: the listed materials, then the rest in order of use.
 std::vector<int> interface_order(Deck& deck, DeckNode* list, const SceneSpec& scene) {
   std::vector<int> order = listed_materials(deck, list, scene);
@@ -338,6 +312,9 @@ SceneSpec read_scene(Deck& deck) {
       read_results(deck, *results, scene);
     }
     read_layers(deck, top.node("layers"), top.node("fabrics"), scene);
+    if (DeckNode* injury = top.node("injury")) {
+      read_injury(deck, *injury, scene);
+    }
   }
   if (DeckNode* numerics = usable(root, "numerics")) {
     read_numerics(deck, *numerics, scene);

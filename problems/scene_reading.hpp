@@ -93,6 +93,12 @@ bool bodies_missing(const Deck& deck, const SceneSpec& scene);
 /// Bodies by name, as indices; unknown names are reported, but for bodies whose own errors kept them out.
 std::vector<int> listed_bodies(Deck& deck, DeckNode& list, const SceneSpec& scene);
 
+/// A list of materials in use, each once, as indices into them; `list` may be null.
+std::vector<int> listed_materials(Deck& deck, DeckNode* list, const SceneSpec& scene);
+
+/// [injury], after gauges, results and layers, which it names.
+void read_injury(Deck& deck, DeckNode& node, SceneSpec& scene);
+
 /// [motion], but for what a following mesh goes with.
 void read_motion(Deck& deck, DeckNode& node, Motion& motion);
 

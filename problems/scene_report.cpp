@@ -289,6 +289,10 @@ std::string scene_table(const SceneSpec& scene) {
                        g.at[2],
                        g.rides ? "rides with the material" : "fixed");
   }
+  if (scene.injury) {
+    out += fmt::format("injury measures along {}{}, recorded every {:g} s; research output, not medical advice\n", scene.injury->direction > 0 ? "+" : "-",
+                       axis_names(scene.geometry)[static_cast<std::size_t>(scene.injury->axis)], scene.injury->record_every);
+  }
   const Cost cost = estimated_cost(scene);
   return out + fmt::format("about {:.0f} steps, {:.0f} bytes a cell ({:.3g} MB), {} on one core\n", cost.steps, cost.bytes_per_cell,
                            cost.bytes_per_cell * cost.cells * 1e-6, spoken_time(cost.core_seconds));

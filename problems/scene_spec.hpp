@@ -6,6 +6,7 @@
 #include "core/mesh_map.hpp"
 #include "core/units.hpp"
 #include "materials/material.hpp"
+#include "problems/injury_spec.hpp"
 #include "problems/layers_spec.hpp"
 #include "problems/shapes.hpp"
 
@@ -111,6 +112,7 @@ struct SceneSpec {
   Output output;
   Results results;
   std::vector<LayersSpec> layers;
+  std::optional<InjurySpec> injury; ///< nothing: not measured
 };
 
 /// Names a deck may list under gauge.record and output.fields.

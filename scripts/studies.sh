@@ -61,6 +61,7 @@ remap_frequency() {
   sed '/^remap_every/d' problems/m80_tissue.toml > "$runs/m80_tissue.toml"
   run $s m80 "$runs/m80_tissue.toml" --reference fine "${intervals[@]}" --case 'never: motion.policy="lagrangian"; numerics.sliding=[]' \
     --case "fine: mesh.refine=$(scaled 2)" --set 'end_time="60 us"' --set "mesh.refine=$(scaled 1)"
+  run $s m80_vest problems/m80_vest_tissue.toml --reference 'every 1' "${intervals[@]:0:8}" --set "mesh.refine=$(scaled 0.5)"
   mkdir -p docs/studies/$s
   { printf '# Vortex strain: `ballast verify vortex_interval`\n\n```\n'; "$ballast" verify vortex_interval; printf '```\n'; } > docs/studies/$s/vortex.md
 }

@@ -12,42 +12,6 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// Weights of a triangle's corners at its point nearest to p, by the regions of C. Ericson, Real-Time Collision Detection (2005), 5.1.5.
-Point nearest_on_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
-  const Point ab = minus(b, a), ac = minus(c, a), ap = minus(p, a);
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) {
-    return {1, 0, 0};
-  }
-  const Point bp = minus(p, b);
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) {
-    return {0, 1, 0};
-  }
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-    const double t = d1 / (d1 - d3);
-    return {1 - t, t, 0};
-  }
-  const Point cp = minus(p, c);
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) {
-    return {0, 0, 1};
-  }
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-    const double t = d2 / (d2 - d6);
-    return {1 - t, 0, t};
-  }
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - t, t};
-  }
-  const double scale = 1 / (va + vb + vc);
-  return {1 - (vb + vc) * scale, vb * scale, vc * scale};
-}
-
 /// Parameters of a patch's corners.
 std::array<double, 2> corner_place(const SkinPatch& p, std::size_t corner) { return {corner == 1 || corner == 2 ? p.high[0] : p.low[0], corner > 1 ? p.high[1] : p.low[1]}; }
 
@@ -116,7 +80,7 @@ std::size_t LayerBody<3>::column(std::size_t axis, double x) const {
 std::array<std::array<std::size_t, 2>, 2> LayerBody<3>::columns(const Point& point, std::array<double, 2> reach) const {
   std::array<std::array<std::size_t, 2>, 2> out;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const double far = reach[axis] + overhang_[axis];
+    const double far = reach[axis] + overhang_[axis] + 1e-12 * (ends_[axis].back() - ends_[axis].front()); // on a line: both sides
     out[axis] = {column(axis, point[axis] - far), column(axis, point[axis] + far)};
   }
   return out;
@@ -139,6 +103,7 @@ void LayerBody<3>::fill_columns() {
     }
   }
   const auto for_kinds = [&](std::size_t p, auto&& body) {
+    static_assert(lower == 0 && upper == 1 && rim == 2); // as SkinPatch::side
     body(skin_.patches[p].hidden ? hidden : static_cast<Kind>(skin_.patches[p].side));
     if (!skin_.patches[p].hidden && patches_[p].offset > 0) {
       body(padded);
@@ -269,6 +234,7 @@ bool LayerBody<3>::outside_of(const OnPatch& at, const Point& point, Point& outw
 }
 
 template <class Body> bool LayerBody<3>::any_near(const Point& point, const double& square, Kind kind, Body&& body) const {
+  constexpr double rounding = 1 - 1e-12; // of two as near the same one is found whatever was looked at first
   const Columns& c = binned_[kind];
   const auto beyond = [&](const Point& low, const Point& high) {
     double sum = 0;
@@ -276,7 +242,7 @@ template <class Body> bool LayerBody<3>::any_near(const Point& point, const doub
       const double off = std::max({low[d] - point[d], point[d] - high[d], 0.0});
       sum += off * off;
     }
-    return sum;
+    return rounding * sum;
   };
   const auto in_column = [&](std::size_t at) {
     if (!(beyond(c.box[at].low, c.box[at].high) <= square)) {
@@ -319,7 +285,7 @@ LayerBody<3>::OnPatch LayerBody<3>::nearest(const Point& point, double square, i
     }
     return false;
   };
-  if (start >= 0) {
+  if (start >= 0 && (side < 0 || skin_.patches[static_cast<std::size_t>(start)].side != 1 - side)) {
     look(start);
   }
   for (const Kind kind : {lower, upper, rim}) {

@@ -12,7 +12,7 @@ template <> class LayerBody<3> {
 public:
   LayerBody(const LayerStack<3>& stack, const std::vector<char>& alive, const std::vector<double>& least_thickness, double bin, ThreadPool& pool);
 
-  /// `start`: a patch to look at first (a neighbour's foot, of the same `side`), or -1; becomes the foot's. It changes nothing but the time taken.
+  /// `start`: a patch to look at first (a neighbour's foot), or -1; becomes the foot's. It changes nothing but the time taken.
   bool foot(const std::array<double, 3>& point, double reach, BodyFoot<3>& out, int side = -1, int* start = nullptr) const;
   bool may_touch(const std::array<double, 3>& point, const std::array<double, 3>& box) const;
   bool near(double low, double high, double reach) const;

@@ -37,7 +37,7 @@ public:
     parallel_ranges(pool_, s_.grid.layers, [&](int begin, int end, int) {
       for (int layer = begin; layer < end; ++layer) {
         Part& part = parts[static_cast<std::size_t>(layer)];
-        for_columns(layer, 0, ny_, [&](Column c) { add_quads(layer, c, part); });
+        for_columns(layer, [&](Column c) { add_quads(layer, c, part); });
         add_normals(part);
       }
     });
@@ -51,7 +51,7 @@ public:
     constexpr int run = 64;
     const int runs = (static_cast<int>(whole.size()) + run - 1) / run;
     std::vector<std::vector<SkinPatch>> cut(static_cast<std::size_t>(runs));
-    each_in_turn(runs, [&](int n) {
+    parallel_turns(pool_, runs, [&](int n) {
       const std::size_t first = static_cast<std::size_t>(n) * run, last = std::min(first + run, whole.size());
       for (std::size_t q = first; q < last; ++q) {
         add_visible(whole[q], cut[static_cast<std::size_t>(n)]);
@@ -93,9 +93,9 @@ private:
     return !there(layer, to);
   }
 
-  /// Columns that are there, of rows [begin, end).
-  template <class Visit> void for_columns(int layer, int begin, int end, Visit&& body) const {
-    for (int j = begin; j < end; ++j) {
+  /// Columns that are there.
+  template <class Visit> void for_columns(int layer, Visit&& body) const {
+    for (int j = 0; j < ny_; ++j) {
       for (int i = 0; i < nx_; ++i) {
         if (there(layer, {i, j})) {
           body(Column{i, j});
@@ -103,17 +103,9 @@ private:
       }
     }
   }
-  /// Threads take turns: work is dear where layers are torn.
-  template <class Visit> void each_in_turn(int count, Visit&& body) const {
-    pool_.run([&](int t) {
-      for (int n = t; n < count; n += pool_.size()) {
-        body(n);
-      }
-    });
-  }
   /// Calls body(layer, node, low) for the nodes of what is there, in no order.
   template <class Visit> void for_node_rows(Visit&& body) const {
-    each_in_turn(s_.grid.layers * (ny_ + 1), [&](int row) {
+    parallel_turns(pool_, s_.grid.layers * (ny_ + 1), [&](int row) { // dear where layers are torn
       const int layer = row / (ny_ + 1), j = row % (ny_ + 1);
       for (int i = 0; i <= nx_; ++i) {
         if (there(layer, {i - 1, j - 1}) || there(layer, {i, j - 1}) || there(layer, {i - 1, j}) || there(layer, {i, j})) {

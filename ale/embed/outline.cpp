@@ -153,15 +153,30 @@ private:
             a.offset + part * (b.offset - a.offset), a.side, false};
   }
 
+  /// The end x of another layer, its node k, where it lies on a layer's face. Where layers have slid far or lie folded the way down from k may stop short.
+  void add_end(int layer, bool low, const Point& x, int k, std::vector<std::vector<double>>& parts) const {
+    const int n = s_.grid.elements[0];
+    const auto add = [&](int start) {
+      const OnPlane on = nearest(layer, plane(layer, low), x, start);
+      const bool there = on.segment >= 0 && on.gap <= seen_slit * least_[at(on.segment)];
+      if (there) {
+        parts[at(on.segment)].push_back(on.part);
+      }
+      return there;
+    };
+    constexpr int apart_from_k = 4;
+    bool found = add(std::min(k, n - 1));
+    for (int i = apart_from_k / 2; i < n && !found; i += apart_from_k) {
+      found = add(i);
+    }
+  }
+
   /// Where a layer's face goes under another layer or comes out because that ends: by segment, as parts of it.
   std::vector<std::vector<double>> ends_over(int layer, bool low) const {
     std::vector<std::vector<double>> parts(at(s_.grid.elements[0]));
     for (int q = low ? layer - 1 : layer + 1; q >= 0 && q < s_.grid.layers; q += low ? -1 : 1) {
       for (const int k : ends_[at(q)]) {
-        const OnPlane on = nearest(layer, plane(layer, low), place(k, plane(q, !low)), std::min(k, s_.grid.elements[0] - 1));
-        if (on.segment >= 0 && on.gap <= seen_slit * least_[at(on.segment)]) {
-          parts[at(on.segment)].push_back(on.part);
-        }
+        add_end(layer, low, place(k, plane(q, !low)), k, parts);
       }
     }
     return parts;

@@ -39,9 +39,24 @@ template <class Move> void move_layer(LayerStack<3>& s, int layer, Move&& move) 
   }
 }
 
-LayerBody<3> body_of(const LayerStack<3>& s, double least) {
+LayerBody<3> body_of(const LayerStack<3>& s, double least, double bin = 0.7 * mm) {
   ThreadPool one(1);
-  return LayerBody<3>(s, s.alive, std::vector<double>((side + 1) * (side + 1), least), 0.7 * mm, one);
+  return LayerBody<3>(s, s.alive, std::vector<double>((side + 1) * (side + 1), least), bin, one);
+}
+
+/// The lower layer slid under the upper one, both bent, the upper one stretched far past where it was.
+LayerStack<3> bent_stack() {
+  LayerStack<3> s = torn_stack();
+  move_layer(s, 0, [](double& x, double& y, double& z) {
+    z += 20 * x * x - 10 * x * y;
+    x += 0.6 * mm;
+    y += 0.3 * mm;
+  });
+  move_layer(s, 1, [](double& x, double& y, double& z) {
+    z += 20 * x * x - 10 * x * y + 0.2 * mm;
+    x *= 1.4;
+  });
+  return s;
 }
 
 double level_at(const LayerBody<3>& body, double x, double y, double z) {
@@ -102,6 +117,48 @@ TEST(LayerSkin, ClosesNarrowSlitsOnly) {
     LayerStack<3> s = torn_stack();
     move_layer(s, 1, [&](double&, double&, double& z) { z += slit * mm; });
     EXPECT_NEAR(enclosed(body_of(s, 1 * mm)), 63 + (slit < 0.3 ? 27 * slit : 0), 0.03 * 63) << slit;
+  }
+}
+
+/// Columns and the patch looked at first, whichever side's it is, only save time.
+TEST(LayerSkin, FootIsTheSameHoweverItIsFound) {
+  const LayerStack<3> s = bent_stack();
+  const LayerBody<3> columns = body_of(s, 0.3 * mm), all = body_of(s, 0.3 * mm, 1);
+  int start = -1, found = 0;
+  for (double x = -1.13; x < 10; x += 0.7) {
+    for (double y = -1.07; y < 8; y += 0.7) {
+      for (double z = -2.03; z < 4; z += 0.4) {
+        for (const int of : {-1, 0, 1}) {
+          const std::array<double, 3> point = {x * mm, y * mm, z * mm};
+          BodyFoot<3> a, b;
+          ASSERT_EQ(columns.foot(point, 2 * mm, a, of, &start), all.foot(point, 2 * mm, b, of)) << x << ' ' << y << ' ' << z << " side " << of;
+          EXPECT_EQ(a.level, b.level) << x << ' ' << y << ' ' << z << " side " << of;
+          EXPECT_EQ(a.node, b.node);
+          EXPECT_EQ(a.normal, b.normal);
+          EXPECT_EQ(a.side, b.side);
+          ++found;
+        }
+      }
+    }
+  }
+  EXPECT_GT(found, 1000);
+}
+
+TEST(LayerSkin, IsTheSameOnAnyThreads) {
+  const LayerStack<3> s = bent_stack();
+  ThreadPool one(1), three(3);
+  const std::vector<double> least((side + 1) * (side + 1), 0.8 * mm);
+  const Skin a = find_skin(s, s.alive, least, one), b = find_skin(s, s.alive, least, three);
+  ASSERT_EQ(a.patches.size(), b.patches.size());
+  EXPECT_GT(a.patches.size(), 2u * 2 * side * side); // some are cut
+  for (std::size_t p = 0; p < a.patches.size(); ++p) {
+    EXPECT_EQ(a.patches[p].node, b.patches[p].node);
+    EXPECT_EQ(a.patches[p].low, b.patches[p].low);
+    EXPECT_EQ(a.patches[p].hidden, b.patches[p].hidden);
+  }
+  for (std::size_t v = 0; v < a.vertices.size(); ++v) {
+    EXPECT_EQ(a.vertices[v].normal, b.vertices[v].normal);
+    EXPECT_EQ(a.vertices[v].offset, b.vertices[v].offset);
   }
 }
 

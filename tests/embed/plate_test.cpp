@@ -176,6 +176,34 @@ TEST(EmbeddedPlate, OpensWhereElementsHaveGone) {
   EXPECT_LT(beside, 1e-12 * through);
 }
 
+/// A body's shape has jumped, and a cell holds more than it leaves room for: that is pressed out over a time, however many steps it has.
+TEST(EmbeddedPlate, WhatAJumpPressesOutTakesATimeNotSteps) {
+  constexpr double cell = 1e-3, jump = 0.05 * cell;
+  const Material water = channel_water();
+  const auto most_after = [&](int steps, double dt) {
+    Scene<2> scene;
+    scene.blocks.push_back(channel(40 * cell, cell, 4, [&](double at) { return ChannelState{at < 21 * cell, water.density, water.specific_energy, 0}; }));
+    scene.layers.push_back(plate_across({30e9, 0.3, 2000}, 4 * cell, 4, 20.4 * cell, 26 * cell, 4));
+    embed(scene);
+    for (double& x : scene.layers[0].stack.position[1]) {
+      x -= jump;
+    }
+    scene.numerics.dt_initial = scene.numerics.dt_max = dt;
+    Clock clock;
+    clock.end_time = 1;
+    for (int step = 0; step < steps; ++step) {
+      advance(scene, clock);
+    }
+    double most = 0;
+    for_each_cell(scene.blocks[0], [&](int i, int j, int k) { most = std::max(most, scene.blocks[0].pressure.row(scene.blocks[0].grid.cell_row(j, k))[i]); });
+    return most;
+  };
+  const double few = most_after(10, 1e-9), many = most_after(100, 1e-10); // both below the usual step, 3e-8 s
+  EXPECT_GT(few, 1e5);
+  EXPECT_NEAR(many, few, 0.05 * few);
+  EXPECT_LT(most_after(1000, 1e-13), 4e4); // a whole cell's: rho c^2 0.002 (1e-10 / 3e-8) = 1.7e4 Pa
+}
+
 /// G. I. Taylor 1941: an exponential wave p0 exp(-t/theta) gives a free plate the momentum 2 p0 theta q^(q/(1-q)) until the water
 /// behind it cavitates, q = rho c theta / m.
 TEST(EmbeddedPlate, TakesTaylorsMomentum) {

@@ -1,4 +1,5 @@
 // A run of a scene with fabric layers: what it conserves, what it writes, and that neither threads nor a restart change a bit.
+#include "ale/embedding.hpp"
 #include "problems/run_session.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/observers.hpp"
@@ -90,6 +91,53 @@ std::string embedded_deck_3d() {
   return text;
 }
 
+/// A slug through the vest into tissue, a quarter of it in 3D on cells of 1 mm.
+std::string slug_deck() {
+  return R"(
+title = "slug"
+geometry = "3d"
+symmetry = ["x", "y"]
+end_time = "14 us"
+ambient = { pressure = "0 Pa" }
+[[body]]
+name = "slug"
+material = "lead"
+velocity = [0, 0, "823 m/s"]
+shape = { cylinder = { from = [0, 0, "-13 mm"], to = [0, 0, "-7 mm"], radius = "3 mm" } }
+[[body]]
+name = "tissue"
+material = "muscle"
+shape = { box = { from = [0, 0, 0], to = ["8 mm", "8 mm", "8 mm"] } }
+[mesh]
+x = { from = "0 mm", to = "9 mm", cells = 9 }
+y = { from = "0 mm", to = "9 mm", cells = 9 }
+z = { from = "-14 mm", to = "10 mm", cells = 24 }
+[motion]
+policy = "eulerian"
+remap_every = 4
+[numerics]
+sliding = ["muscle"]
+[fabrics.vest]
+base = "kevlar_km2_raftenberg"
+solid = true
+[[layers]]
+name = "vest"
+fabric = "vest"
+front = "-6.67 mm"
+layers = 5
+half_width = "20 mm"
+to = "5 mm"
+size = ["1 mm", "5 mm"]
+erode_when = "either"
+erode_volume = 0.05
+[output]
+fields_every = "5 us"
+[results]
+bullet = ["slug"]
+target = "muscle"
+)";
+}
+
 /// A jacketed bullet on the same: the mesh is turned about the line of flight, core and jacket share cells.
 std::string bullet_deck(bool solid) {
   const std::string tip = solid ? "[0, 0, 0]" : "[0, 0]", across = "{ from = 0, to = 1, cells = 3 }\n";
@@ -172,56 +220,38 @@ TEST(LayersRun, ABulletThroughAVestIntoTissueKeepsItsEnergyAccount) {
   EXPECT_LT(j["results"]["layers"]["vest"]["passed_kg"]["largest_while_whole"].get<double>(), 1e-12);
 }
 
-/// The same in 3D: a slug on cells of 1 mm, along planes of symmetry, until it has torn the vest and meets tissue.
+/// The same in 3D: along planes of symmetry, until the slug has torn the vest and meets tissue.
 TEST(LayersRun, ASlugThroughAVestInSpaceKeepsItsEnergyAccount) {
-  const nlohmann::json j = run<3>(2, R"(
-title = "slug"
-geometry = "3d"
-symmetry = ["x", "y"]
-end_time = "14 us"
-ambient = { pressure = "0 Pa" }
-[[body]]
-name = "slug"
-material = "lead"
-velocity = [0, 0, "823 m/s"]
-shape = { cylinder = { from = [0, 0, "-13 mm"], to = [0, 0, "-7 mm"], radius = "3 mm" } }
-[[body]]
-name = "tissue"
-material = "muscle"
-shape = { box = { from = [0, 0, 0], to = ["8 mm", "8 mm", "8 mm"] } }
-[mesh]
-x = { from = "0 mm", to = "9 mm", cells = 9 }
-y = { from = "0 mm", to = "9 mm", cells = 9 }
-z = { from = "-14 mm", to = "10 mm", cells = 24 }
-[motion]
-policy = "eulerian"
-remap_every = 4
-[numerics]
-sliding = ["muscle"]
-[fabrics.vest]
-base = "kevlar_km2_raftenberg"
-solid = true
-[[layers]]
-name = "vest"
-fabric = "vest"
-front = "-6.67 mm"
-layers = 5
-half_width = "20 mm"
-to = "5 mm"
-size = ["1 mm", "5 mm"]
-erode_when = "either"
-erode_volume = 0.05
-[output]
-fields_every = "5 us"
-[results]
-bullet = ["slug"]
-target = "muscle"
-)").summary;
+  const nlohmann::json j = run<3>(2, slug_deck()).summary;
   EXPECT_LT(std::abs(j["energy_J"]["unaccounted"].get<double>()), 1e-8 * j["energy_J"]["start"].get<double>());
   EXPECT_LT(j["energy_J"]["lost_where_the_mesh_meets_layers"].get<double>(), 0.05 * j["energy_J"]["start"].get<double>());
   EXPECT_LT(std::abs(j["conservation_errors"]["mass_relative"].get<double>()), 1e-9);
   EXPECT_GT(j["results"]["layers"]["vest"]["mass_kg"]["eroded"].get<double>(), 0);
   EXPECT_LT(j["results"]["layers"]["vest"]["passed_kg"]["largest_while_whole"].get<double>(), 1e-8); // of 2.6 g
+}
+
+/// Cells at rest away from the layers are passed over.
+TEST(LayersRun, SleepBesideLayersChangesNoBit) {
+  const auto awake = [](const nlohmann::json& j) { return j["awake_share"].get<double>(); };
+  std::string text = slug_deck();
+  const auto put = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+  put("end_time = \"14 us\"", "end_time = \"7 us\"");
+  put("to = [\"8 mm\", \"8 mm\", \"8 mm\"]", "to = [\"8 mm\", \"8 mm\", \"24 mm\"]");
+  put("to = \"10 mm\", cells = 24", "to = \"26 mm\", cells = 40");
+  const Written on = run<3>(2, text);
+  text.insert(text.find("sliding = ["), "sleeping = false\n");
+  const Written off = run<3>(2, text);
+  EXPECT_EQ(on.history, off.history);
+  EXPECT_EQ(on.summary["results"], off.summary["results"]);
+  const std::vector<std::string> coarse = {"mesh.refine=0.5", "end_time=\"8 us\""};
+  std::vector<std::string> wakeful = coarse;
+  wakeful.push_back("numerics.sleeping=false");
+  const nlohmann::json a = run_shipped("m80_vest_tissue.toml", coarse), b = run_shipped("m80_vest_tissue.toml", wakeful);
+  EXPECT_EQ(a["results"], b["results"]);
+  EXPECT_EQ(a["energy_J"], b["energy_J"]);
+  EXPECT_LT(awake(on.summary), 0.95);
+  EXPECT_LT(awake(a), 0.6);
+  EXPECT_EQ(awake(b), 1);
 }
 
 /// A ply half a cell thick, and a layer of four cells, that cannot tear: all of the bullet stays on its side, and bulges them.
@@ -310,6 +340,32 @@ template <int Dim> std::vector<double> state_of(const Scene<Dim>& scene) {
 template <int Dim> void expect_restart_goes_on(const std::string& source) {
   Deck text = Deck::parse(source, "test.toml", {});
   expect_restarts<Dim>(read_scene(text), {1, 6, 13}, [](const Scene<Dim>& scene) { return state_of(scene); });
+}
+
+/// Beside layers that tear, stopped where elements have gone in the last step: their room is given back in the next.
+TEST(LayersRun, RestartOfATornVestGoesOnBitForBit) {
+  const ReadScene read = read_scene(std::string(BALLAST_SOURCE_DIR) + "/problems/m80_vest_tissue.toml", {"mesh.refine=0.5", "end_time=\"13 us\""});
+  Scene<2> scene = build_scene<2>(read.scene, 1);
+  Clock clock;
+  clock.end_time = read.scene.end_time;
+  std::vector<long> torn;
+  while (!clock.done()) {
+    advance(scene, clock);
+    if (scene.embedded[0]->alive[0] != scene.layers[0].stack.alive) {
+      torn.push_back(clock.step);
+    }
+  }
+  ASSERT_GT(torn.size(), 2u);
+  expect_restarts<2>(read.scene, {torn[0], torn[torn.size() / 2], torn.back()}, [](const Scene<2>& s) {
+    std::vector<double> state = state_of(s);
+    const EmbeddingMemory memory = memory_of(*s.embedded[0]);
+    state.insert(state.end(), memory.alive[0].begin(), memory.alive[0].end());
+    state.insert(state.end(), memory.cells.begin(), memory.cells.end());
+    for (const Pocket& p : memory.pockets) {
+      state.push_back(p.volume);
+    }
+    return state;
+  });
 }
 
 TEST(LayersRun, RestartGoesOnBitForBit) {
