@@ -26,6 +26,9 @@ namespace ballast {
 /// Independent deviator components: 2D xx yy xy (rr zz rz), 3D also yz xz; zz (hoop) follows from the trace.
 template <int Dim> inline constexpr int stress_components = Dim == 2 ? 3 : 5;
 
+/// Components of a tensor of memory that are kept: xx yy zz xy, in 3D also yz zx; in 2D those stay zero.
+template <int Dim> inline constexpr int memory_components = Dim == 2 ? 4 : 6;
+
 /// Field numbers in a material's TileStore.
 namespace field {
 inline constexpr int fraction = 0; ///< volume fraction
@@ -34,6 +37,9 @@ inline constexpr int energy = 2;   ///< J/kg
 inline constexpr int stress = 3;   ///< first deviator component, Pa (materials with strength)
 template <int Dim> inline constexpr int plastic_strain = 3 + stress_components<Dim>;
 template <int Dim> inline constexpr int damage = 4 + stress_components<Dim>; ///< materials with a failure model
+/// Viscoelastic materials (which do not fail): free energy, J/kg, then the law's state less its rest, so that rest is zero.
+template <int Dim> inline constexpr int free_energy = 4 + stress_components<Dim>;
+template <int Dim> inline constexpr int memory = 5 + stress_components<Dim>;
 } // namespace field
 
 struct MaterialSlot {
@@ -46,6 +52,7 @@ struct MaterialSlot {
   double shear = 0;            ///< shear modulus if it does not, Pa
   GaugeReference reference; ///< the material's initial state
   TileStore store;
+  int memories = 0; ///< tensors that a viscoelastic material remembers
 
   int pressure_field() const { return store.conserved(); }
   int modulus_field() const { return store.conserved() + 1; }

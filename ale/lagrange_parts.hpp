@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <vector>
 
 namespace ballast {
 
@@ -20,12 +22,22 @@ struct BoundaryEffect {
   std::array<double, 3> impulse = {0, 0, 0};
 };
 
+/// A viscoelastic cell that could not be integrated.
+struct TissueTrouble {
+  std::array<int, 3> cell = {-1, -1, -1};
+  std::size_t material = 0;
+  TissueFailure failure{};
+};
+
 /// Sums over the cells of a step.
 template <int Dim> struct StepSums {
   double void_work = 0;    ///< J
   double swept_volume = 0; ///< m3, sum of S.ubar dt: what the reference pressure worked on
   int failed = 0;
   std::array<int, 3> failed_cell = {-1, -1, -1}; ///< the last of them
+  std::vector<TissueEnergy> tissue;     ///< by material; empty without a viscoelastic one
+  long tissue_repairs = 0;
+  std::optional<TissueTrouble> trouble; ///< the first
 };
 
 /// Work of the step's forces on every cell, shared among its materials; volumes, deviators and plastic strain after

@@ -6,13 +6,13 @@
 #include "ale/outflow.hpp"
 #include "ale/phases.hpp"
 #include "ale/rest.hpp"
+#include "ale/tissue_update.hpp"
+#include "core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
-
-#include "core/error.hpp"
 
 namespace ballast {
 
@@ -372,10 +372,10 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
     }
     scene.ledger.void_work += sums.void_work;
     scene.ledger.ambient_work -= b.reference_pressure * sums.swept_volume;
+    book_tissue(scene, b, sums, clock);
     if (sums.failed > 0) {
       const auto& c = sums.failed_cell;
-      throw NumericalFailure(fmt::format(
-          "block {}, from cell ({}, {}, {}) on, material {}: the return to the yield surface (equivalent stress, Pa) did not "
+      throw NumericalFailure(fmt::format("block {}, from cell ({}, {}, {}) on, material {}: the return to the yield surface (equivalent stress, Pa) did not "
           "converge in {} cells at time {:g} s",
           b.name, c[0], c[1], c[2], contents(b, c), sums.failed, clock.time));
     }

@@ -69,6 +69,7 @@ struct Totals {
   std::vector<double> mass, internal_energy, volume; ///< by material
   double kinetic_energy = 0;
   std::array<double, 3> momentum = {0, 0, 0};
+  std::vector<double> free_energy; ///< J by material, 0 of what is not viscoelastic
 
   double internal() const {
     double sum = 0;

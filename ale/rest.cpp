@@ -93,6 +93,9 @@ template <int Dim> bool mixed_rests(const Block<Dim>& b, int i, int j, int k, bo
         return false;
       }
     }
+    if (slot.memories > 0 && slot.store.row(field::free_energy<Dim>, r)[i] != 0) {
+      return false;
+    }
     conducts = conducts || slot.material.conductivity > 0;
     bath += slot.material.conductivity > 0 ? 0 : slot.store.row(field::mass, r)[i];
     cold = cold && (slot.material.conductivity == 0 || slot.store.row(field::energy, r)[i] == conduction_wall(slot));
@@ -129,7 +132,7 @@ template <int Dim> bool nothing_pulls(const Block<Dim>& b, int begin, int end, i
   return pulls == 0 && presses == 0;
 }
 
-/// Are those of [begin, end) that are pure whole?
+/// Are those of [begin, end) that are pure whole, and remember nothing?
 template <int Dim> bool pure_whole(const Block<Dim>& b, int begin, int end, int r) {
   const std::int8_t* owner = b.owner_row(r);
   for (int i = begin; i < end;) {
@@ -138,9 +141,11 @@ template <int Dim> bool pure_whole(const Block<Dim>& b, int begin, int end, int 
       ++i;
       continue;
     }
-    const double* f = b.materials[static_cast<std::size_t>(mat)].store.row(field::fraction, r);
+    const MaterialSlot& slot = b.materials[static_cast<std::size_t>(mat)];
+    const double* f = slot.store.row(field::fraction, r);
+    const double* held = slot.memories > 0 ? slot.store.row(field::free_energy<Dim>, r) : nullptr;
     for (; i < end && owner[i] == mat; ++i) {
-      if (f[i] != 1) {
+      if (f[i] != 1 || (held != nullptr && held[i] != 0)) {
         return false;
       }
     }

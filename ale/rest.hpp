@@ -1,7 +1,7 @@
 // Rest: what a step would leave as it is, bit for bit, and so may sleep (core/awake.hpp).
 //
 // A cell is restless if a node of it moves (or is not where the next remap brings it), if it presses or pulls on its
-// nodes (gauge pressure or deviator not zero; void, whose nodes have no mass, may press), or if it is mixed and the closure,
+// nodes (gauge pressure or deviator not zero; void, whose nodes have no mass, may press), if it holds viscoelastic free energy, or if it is mixed and the closure,
 // heat conduction, the remap's round-off of fractions or a closing void would change it. All else the step returns as it
 // was, whatever dt and whichever axis is swept first.
 // Tiny velocities would keep everything awake: ahead of a wave they fall off with distance but never end, and spread a

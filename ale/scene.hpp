@@ -4,6 +4,7 @@
 #include "ale/block.hpp"
 #include "ale/layers/layers.hpp"
 #include "core/threads.hpp"
+#include "materials/visco_integrator.hpp"
 #include "remap/normal.hpp"
 
 #include <array>
@@ -31,6 +32,7 @@ struct Numerics {
   double max_volume_change = 0.2; ///< of a cell in one step
   bool spall = true;
   bool sleeping = true; ///< what rests is passed over: the same bits, faster (ale/rest)
+  TissueOptions tissue{}; ///< how viscoelastic branches are integrated
 };
 
 /// What decided the time step.
@@ -56,6 +58,12 @@ struct Clock {
   void advance();
 };
 
+/// Of a viscoelastic material since the start, J: work of its deviator, what of it became heat, and free energy that a remap
+/// (a mixture holds less than its parts), an interface (ale/traction) or a sliver took. What is stored is the free energy's sum.
+struct TissueEnergy {
+  double work = 0, dissipated = 0, lost = 0;
+};
+
 /// Energy and mass that left or entered by a named door; all zero in a closed Lagrangian gas run.
 struct Ledger {
   double boundary_work = 0;       ///< J, done on the block by moving walls and inflows
@@ -75,6 +83,9 @@ struct Ledger {
   long energy_floors = 0;         ///< cells whose energy return was cut to keep e from falling
   long retries = 0;
   double embedded_given = 0;      ///< J that blocks gave to layers inside them; what of it did not reach them (load_work) is the loss of impacts
+  std::vector<TissueEnergy> tissue; ///< by material; empty without a viscoelastic one
+  TissueCounts tissue_counts{};
+  long tissue_repairs = 0; ///< states that a remap left not positive definite, drawn to rest
 };
 
 template <int Dim> struct Embedding; // ale/embedding.hpp
@@ -86,6 +97,7 @@ template <int Dim> struct Scene {
   std::vector<std::shared_ptr<Embedding<Dim>>> embedded; ///< of the blocks that they lie in
   Numerics numerics;
   Ledger ledger;
+  std::vector<TissueIntegrator> tissue; ///< one a thread
   std::unique_ptr<ThreadPool> pool = std::make_unique<ThreadPool>(1);
 };
 

@@ -1,6 +1,7 @@
 #include "ale/strength_update.hpp"
 
 #include "ale/phases.hpp"
+#include "ale/tissue_update.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,9 @@ namespace ballast {
 namespace {
 
 constexpr int chunk = 64; // cells whose trial stress is kept at hand
+
+/// Has it a yield surface to return to?
+template <class Model> constexpr bool flows = !std::is_same_v<Model, NoStrength> && !std::is_same_v<Model, Viscoelastic>;
 
 /// von Mises equivalent stress sqrt(3/2 s:s) of deviator components.
 double equivalent(const double* s, std::integral_constant<int, 2>) {
@@ -199,7 +203,7 @@ int update_stress(const Material& material, double dt, int count, const StressRo
       [&](const auto& model) {
         int failed = 0;
         using Model = std::decay_t<decltype(model)>;
-        if constexpr (!std::is_same_v<Model, NoStrength>) {
+        if constexpr (flows<Model>) {
           double t[stress_components<Dim>][chunk];
           for (int at = 0; at < count; at += chunk) {
             const int part = std::min(chunk, count - at);
@@ -220,7 +224,7 @@ template <int Dim> void pull_back_to_yield(const Material& material, int count, 
   std::visit(
       [&](const auto& model) {
         using Model = std::decay_t<decltype(model)>;
-        if constexpr (!std::is_same_v<Model, NoStrength>) {
+        if constexpr (flows<Model>) {
           constexpr int n = stress_components<Dim>;
           for (int i = 0; i < count; ++i) {
             const double stiffer = stiffening(model, rows, i);
@@ -254,7 +258,7 @@ template <int Dim> void pull_back_to_yield(const Material& material, int count, 
 }
 
 template <int Dim> void relax_slivers(const double* fraction, int count, const StressRows<Dim>& rows) {
-  constexpr double sliver = 1e-4; // of a cell
+  constexpr double sliver = sliver_fraction;
   int found = 0;
 #pragma omp simd reduction(+ : found)
   for (int i = 0; i < count; ++i) {
@@ -286,6 +290,9 @@ template <int Dim> void pull_back_to_yield(Block<Dim>& b, ThreadPool& pool) {
           const StressRows<Dim> rows = stress_rows<Dim>(slot, b.reference_pressure, r, cells.begin);
           if (slot.variable_shear) {
             refresh_shear(b, slot, r); // the remap has moved the state under it
+          }
+          if (slot.memories > 0) {
+            set_flow_stress<Dim>(slot, r, cells.begin, cells.count());
           }
           pull_back_to_yield<Dim>(slot.material, cells.count(), rows);
           relax_slivers(std::as_const(slot.store).row(field::fraction, r) + cells.begin, cells.count(), rows);

@@ -31,7 +31,9 @@ template <int Dim>
 /// Scales deviators back to the flow stress (after a remap).
 template <int Dim> void pull_back_to_yield(const Material& material, int count, const StressRows<Dim>& rows);
 
-/// A sliver (below 1e-4 of its cell) carries no deviator: a steady pull on next to no mass would fling it away.
+inline constexpr double sliver_fraction = 1e-4;
+
+/// A sliver (below sliver_fraction of its cell) carries no deviator: a steady pull on next to no mass would fling it away.
 template <int Dim> void relax_slivers(const double* fraction, int count, const StressRows<Dim>& rows);
 
 /// Both for every cell of a block; also sets the flow stresses (start of a run, after a remap).

@@ -38,7 +38,7 @@ template <int Dim> Totals totals(const Block<Dim>& b) {
   const int n = g.cells[0];
   Totals t;
   for (const MaterialSlot& slot : b.materials) {
-    double mass = 0, energy = 0, volume = 0;
+    double mass = 0, energy = 0, volume = 0, stored = 0;
     for (int k = 0; k < g.cells[2]; ++k) {
       for (int j = 0; j < g.cells[1]; ++j) {
         const int r = g.cell_row(j, k);
@@ -50,12 +50,14 @@ template <int Dim> Totals totals(const Block<Dim>& b) {
           const double* m = slot.store.row(field::mass, r);
           mass += lane_sum(m, n);
           energy += product_sum(m, slot.store.row(field::energy, r), n);
+          stored += slot.memories > 0 ? product_sum(m, slot.store.row(field::free_energy<Dim>, r), n) : 0.0;
         }
       }
     }
     t.mass.push_back(mass);
     t.internal_energy.push_back(energy);
     t.volume.push_back(volume);
+    t.free_energy.push_back(stored);
   }
   for (int k = 0; k < (Dim == 3 ? g.cells[2] + 1 : 1); ++k) {
     for (int j = 0; j <= g.cells[1]; ++j) {

@@ -1,6 +1,7 @@
 #include "ale/traction.hpp"
 
 #include "ale/interface.hpp"
+#include "ale/tissue_update.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,9 @@ void cut_tractions(Block<Dim>& b, const CellLayers& layers, const Eigen::Vector3
     if constexpr (Dim == 3) {
       add(3, 1, 2);
       add(4, 0, 2);
+    }
+    if (slot.memories > 0) {
+      free_memory<Dim>(slot, {d[0], d[1], d[2]}, {n[0], n[1], n[2]}, r, i);
     }
   }
 }

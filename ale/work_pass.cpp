@@ -3,6 +3,7 @@
 #include "ale/embedding.hpp"
 #include "ale/lagrange_parts.hpp"
 #include "ale/strength_update.hpp"
+#include "ale/tissue_update.hpp"
 #include "ale/traction.hpp"
 #include "core/rows.hpp"
 
@@ -26,6 +27,10 @@ template <int Dim> struct WorkBuffer {
   std::vector<double> data;
   WorkRows<Dim> rows{};
   RowRuns runs;
+  int j = 0, k = 0; ///< of the row of cells
+  double dt = 0;
+  TissueIntegrator* integrator = nullptr; ///< of the thread; null without tissue
+  TissueScratch tissue;
 
   WorkBuffer(int count, bool strength) : data(static_cast<std::size_t>((3 + gradients) * count)) {
     double* p = data.data();
@@ -45,6 +50,14 @@ StressRows<Dim> stress_rows(MaterialSlot& slot, double reference_pressure, int r
     s.gradient[q] = w->gradient[q] + at;
   }
   return s;
+}
+
+/// The step of a viscoelastic material in cells [begin, begin + count) of the buffer's row.
+template <int Dim>
+void remember(Block<Dim>& b, std::size_t material, int begin, int count, const double* const (&gradient)[WorkRows<Dim>::gradient_components], WorkBuffer<Dim>& buffer, StepSums<Dim>& sums) {
+  TissueRun<Dim> run{material, buffer.j, buffer.k, begin, count, {}};
+  std::copy(std::begin(gradient), std::end(gradient), run.gradient);
+  advance_tissue(b, run, buffer.dt, *buffer.integrator, buffer.tissue, sums);
 }
 
 template <int Dim>
@@ -83,19 +96,29 @@ void strain_parts(Block<Dim>& b,
                   const MixedCell& cell,
                   int r,
                   int i,
-                  double dt,
                   const double (*own)[9],
-                  int& failed) {
+                  WorkBuffer<Dim>& buffer,
+                  StepSums<Dim>& sums) {
   for (int k = 0; k < cell.count; ++k) {
-    MaterialSlot& slot = b.materials[static_cast<std::size_t>(cell.part[k].material)];
-    if (!slot.strength || std::as_const(slot.store).row(field::fraction, r)[i] <= 0) {
+    const auto m = static_cast<std::size_t>(cell.part[k].material);
+    MaterialSlot& slot = b.materials[m];
+    const double f = std::as_const(slot.store).row(field::fraction, r)[i];
+    if (!slot.strength || f <= 0) {
+      continue;
+    }
+    if (slot.memories > 0 && f < sliver_fraction) {
+      forget(b, m, r, i, sums);
       continue;
     }
     StressRows<Dim> rows = stress_rows<Dim>(slot, b.reference_pressure, r, i, nullptr);
     for (int q = 0; q < WorkRows<Dim>::gradient_components; ++q) {
       rows.gradient[q] = own[k] + q;
     }
-    failed += update_stress<Dim>(slot.material, dt, 1, rows);
+    if (slot.memories > 0) {
+      remember(b, m, i, 1, rows.gradient, buffer, sums);
+      continue;
+    }
+    sums.failed += update_stress<Dim>(slot.material, buffer.dt, 1, rows);
     relax_slivers(&std::as_const(slot.store).row(field::fraction, r)[i], 1, rows);
   }
 }
@@ -140,9 +163,9 @@ double advance_mixed(Block<Dim>& b,
                      int r,
                      int i,
                      const Eigen::Vector3d& n,
-                     double dt,
-                     const WorkRows<Dim>& w,
-                     int& failed) {
+                     WorkBuffer<Dim>& buffer,
+                     StepSums<Dim>& sums) {
+  const WorkRows<Dim>& w = buffer.rows;
   const double volume = b.volume.row(r)[i], next_volume = b.next_volume.row(r)[i];
   MixedCell cell = load_mixed(b, r, i, volume, n);
   const CellPressure whole = mixed_pressure(b.closure, cell, -b.reference_pressure);
@@ -152,7 +175,7 @@ double advance_mixed(Block<Dim>& b,
                           w.compression[i],
                           whole.pressure,
                           whole.modulus,
-                          dt};
+                          buffer.dt};
   share_volume_change(b.closure, motion, cell);
   // The closure shares the normal traction's work, the rest of the stress works on each material's
   // own strain (ale/traction), what is left (viscosity, hourglass) goes by mass: the sum is exact.
@@ -193,8 +216,8 @@ double advance_mixed(Block<Dim>& b,
   double& most = b.materials[static_cast<std::size_t>(cell.part[largest].material)].store.row(
       field::fraction, r)[i];
   most += rests ? 0.0 : 1 - sum;
-  conduct(b, cell, r, i, dt);
-  strain_parts<Dim>(b, cell, r, i, dt, own, failed);
+  conduct(b, cell, r, i, buffer.dt);
+  strain_parts<Dim>(b, cell, r, i, own, buffer, sums);
   return taken - (w.work[i] - b.reference_pressure * motion.swept_volume);
 }
 
@@ -232,8 +255,8 @@ template <int Dim> double advance_sliver(Block<Dim>& b, int r, int i, const Work
 }
 
 template <int Dim>
-void advance_pure(
-    Block<Dim>& b, int r, const RowRuns::Run& run, double dt, const WorkRows<Dim>& w, int& failed) {
+void advance_pure(Block<Dim>& b, int r, const RowRuns::Run& run, WorkBuffer<Dim>& buffer, StepSums<Dim>& sums) {
+  const WorkRows<Dim>& w = buffer.rows;
   MaterialSlot& slot = b.materials[static_cast<std::size_t>(run.material)];
   if (slot.is_void) {
     return;
@@ -245,9 +268,14 @@ void advance_pure(
   for (int i = run.begin; i < run.end; ++i) {
     e[i] += (work[i] - p_ref * swept[i]) / m[i]; // as forces of absolute pressures would
   }
-  if (slot.strength) {
-    failed += update_stress<Dim>(
-        slot.material, dt, run.end - run.begin, stress_rows<Dim>(slot, b.reference_pressure, r, run.begin, &w));
+  if (!slot.strength) {
+    return;
+  }
+  const StressRows<Dim> rows = stress_rows<Dim>(slot, b.reference_pressure, r, run.begin, &w);
+  if (slot.memories > 0) {
+    remember(b, static_cast<std::size_t>(run.material), run.begin, run.end - run.begin, rows.gradient, buffer, sums);
+  } else {
+    sums.failed += update_stress<Dim>(slot.material, buffer.dt, run.end - run.begin, rows);
   }
 }
 
@@ -256,7 +284,6 @@ void advance_row(Scene<Dim>& scene,
                  Block<Dim>& b,
                  int j,
                  int k,
-                 double dt,
                  WorkBuffer<Dim>& buffer,
                  StepSums<Dim>& sums) {
   const Grid& g = b.grid;
@@ -265,6 +292,8 @@ void advance_row(Scene<Dim>& scene,
   if (cells.empty()) {
     return;
   }
+  buffer.j = j;
+  buffer.k = k;
   const double* next[Dim][ForceRows<Dim>::lines];
   for (std::size_t d = 0; d < Dim; ++d) {
     for (int l = 0; l < ForceRows<Dim>::lines; ++l) {
@@ -274,12 +303,12 @@ void advance_row(Scene<Dim>& scene,
   corner_work<Dim>(b,
                    ForceRows<Dim>(b, j, k).from(cells.begin),
                    next,
-                   force_coefficients(b, scene.numerics, dt),
+                   force_coefficients(b, scene.numerics, buffer.dt),
                    cells.count(),
                    buffer.rows.from(cells.begin));
   Embedding<Dim>* embedded = embedding_of(scene, b);
   if (embedded != nullptr) {
-    override_work(scene, *embedded, j, k, dt, buffer.rows);
+    override_work(scene, *embedded, j, k, buffer.dt, buffer.rows);
   }
   buffer.runs.scan(b.owner_row(r), cells);
   for (const RowRuns::Run& run : buffer.runs.pure) {
@@ -289,7 +318,7 @@ void advance_row(Scene<Dim>& scene,
       }
     }
     const int before = sums.failed;
-    advance_pure(b, r, run, dt, buffer.rows, sums.failed);
+    advance_pure(b, r, run, buffer, sums);
     sums.failed_cell =
         sums.failed > before ? std::array<int, 3>{run.begin, j, k} : sums.failed_cell;
   }
@@ -306,32 +335,48 @@ void advance_row(Scene<Dim>& scene,
         b.any_strength()
             ? Eigen::Vector3d(b.interface_normals[static_cast<std::size_t>(r)][q++].data())
             : Eigen::Vector3d::Zero();
-    sums.void_work += advance_mixed(b, r, i, n, dt, buffer.rows, sums.failed);
+    sums.void_work += advance_mixed(b, r, i, n, buffer, sums);
     sums.failed_cell = sums.failed > before ? std::array<int, 3>{i, j, k} : sums.failed_cell;
   }
   sums.swept_volume += lane_sum(buffer.rows.swept_volume + cells.begin, cells.count());
+}
+
+template <int Dim> void add_tissue(StepSums<Dim>& total, const StepSums<Dim>& s) {
+  for (std::size_t m = 0; m < total.tissue.size(); ++m) {
+    total.tissue[m].work += s.tissue[m].work;
+    total.tissue[m].dissipated += s.tissue[m].dissipated;
+    total.tissue[m].lost += s.tissue[m].lost;
+  }
+  total.tissue_repairs += s.tissue_repairs;
+  total.trouble = total.trouble ? total.trouble : s.trouble;
 }
 
 } // namespace
 
 template <int Dim> StepSums<Dim> work_pass(Scene<Dim>& scene, Block<Dim>& b, double dt) {
   const Grid& g = b.grid;
-  std::vector<StepSums<Dim>> sums(static_cast<std::size_t>(g.slabs()));
-  parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int) {
+  prepare_tissue(scene);
+  const bool remembers = std::any_of(b.materials.begin(), b.materials.end(), [](const MaterialSlot& s) { return s.memories > 0; });
+  StepSums<Dim> total;
+  total.tissue.resize(remembers ? b.materials.size() : 0);
+  std::vector<StepSums<Dim>> sums(static_cast<std::size_t>(g.slabs()), total);
+  parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int thread) {
     WorkBuffer<Dim> buffer(g.cells[0], b.any_strength());
+    buffer.dt = dt;
+    buffer.integrator = remembers ? &scene.tissue[static_cast<std::size_t>(thread)] : nullptr;
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {
         const auto [j, k] = g.in_slab(s, q);
-        advance_row(scene, b, j, k, dt, buffer, sums[static_cast<std::size_t>(s)]);
+        advance_row(scene, b, j, k, buffer, sums[static_cast<std::size_t>(s)]);
       }
     }
   });
-  StepSums<Dim> total;
   for (const auto& s : sums) {
     total.void_work += s.void_work;
     total.swept_volume += s.swept_volume;
     total.failed_cell = s.failed > 0 ? s.failed_cell : total.failed_cell;
     total.failed += s.failed;
+    add_tissue(total, s);
   }
   return total;
 }

@@ -1,6 +1,7 @@
 #include "materials/library.hpp"
 
 #include "materials/library_metals.hpp"
+#include "materials/library_tissues.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -171,6 +172,8 @@ const std::vector<Material>& library() {
     std::vector<Material> made = {lead(), lead_antimony(), copper_ofhc(), gilding_metal(), water(), air(), gelatin_10(), muscle()};
     const std::vector<Material> metals = modelled_metals();
     made.insert(made.begin() + 4, metals.begin(), metals.end()); // after the other metals
+    const std::vector<Material> tissues = viscoelastic_tissues();
+    made.insert(made.end(), tissues.begin(), tissues.end());
     std::transform(made.begin(), made.end(), made.begin(), finished);
     return made;
   }();

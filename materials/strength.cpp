@@ -12,6 +12,8 @@ double shear_modulus(const Strength& strength) {
       [](const auto& m) {
         if constexpr (std::is_same_v<std::decay_t<decltype(m)>, NoStrength>) {
           return 0.0;
+        } else if constexpr (std::is_same_v<std::decay_t<decltype(m)>, Viscoelastic>) {
+          return instant_shear(m.law);
         } else {
           return m.shear_modulus;
         }
@@ -22,6 +24,11 @@ double shear_modulus(const Strength& strength) {
 bool has_strength(const Strength& strength) { return !std::holds_alternative<NoStrength>(strength); }
 
 bool has_variable_shear(const Strength& strength) { return std::holds_alternative<SteinbergGuinan>(strength); }
+
+const TissueLaw* tissue_law(const Strength& strength) {
+  const auto* tissue = std::get_if<Viscoelastic>(&strength);
+  return tissue != nullptr ? &tissue->law : nullptr;
+}
 
 namespace {
 std::string describe_one(const NoStrength&) { return "none"; }
@@ -35,6 +42,21 @@ std::string describe_one(const JohnsonCook& m) {
 std::string describe_one(const SteinbergGuinan& m) {
   return fmt::format("Steinberg-Guinan, G {:g}, Y {:g} to {:g} Pa, beta {:g}, n {:g}, G'p {:g}, B {:g} /K, Tm {:g} K, a {:g}",
                      m.shear_modulus, m.yield, m.yield_max, m.beta, m.n, m.shear_per_pressure, m.thermal_softening, m.melt_temperature, m.melt_a);
+}
+std::string describe_law(const Prony& m) {
+  return fmt::format("Prony, G {:g} Pa, long-term {:g} Pa, {} branches", instant_shear(m), m.long_shear, m.branches);
+}
+std::string describe_law(const PowerLawZener& m) {
+  return fmt::format("power law, G {:g} Pa, long-term {:g} Pa, {} branches", instant_shear(m), m.long_shear, m.branches);
+}
+std::string describe_law(const FungQlv& m) {
+  return fmt::format("Fung, G {:g} Pa, stiffening {:g}, {} branches", m.shear, m.stiffening, m.branches);
+}
+std::string describe_law(const BergstroemBoyce& m) {
+  return fmt::format("Bergstroem-Boyce, G {:g} Pa, rate {:g} /s at {:g} Pa, m {:g}", instant_shear(m), m.rate, m.base, m.exponent);
+}
+std::string describe_one(const Viscoelastic& m) {
+  return std::visit([](const auto& law) { return describe_law(law); }, m.law);
 }
 } // namespace
 

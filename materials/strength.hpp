@@ -1,11 +1,12 @@
 // Strength models: flow stress of an isotropic metal or tissue, and the plastic increment that
-// brings a trial deviator back to it (radial return, von Mises).
+// brings a trial deviator back to it (radial return, von Mises); or a viscoelastic deviator.
 //
 // Flow stress sigma_y(ep, rate, T) in Pa; G shear modulus Pa. With the trial equivalent stress q, the
 // increment d solves q - 3 G d = sigma_y(ep + d, d/dt, T) on [0, q/3G].
 #pragma once
 
 #include "materials/steinberg_guinan.hpp"
+#include "materials/visco_law.hpp"
 
 #include <cmath>
 #include <limits>
@@ -35,7 +36,12 @@ struct JohnsonCook {
   double start_temperature = 293; ///< of the scene, K
 };
 
-using Strength = std::variant<NoStrength, LinearHardening, JohnsonCook, SteinbergGuinan>;
+/// A deviator with memory (materials/visco_law) instead of a flow stress.
+struct Viscoelastic {
+  TissueLaw law;
+};
+
+using Strength = std::variant<NoStrength, LinearHardening, JohnsonCook, SteinbergGuinan, Viscoelastic>;
 
 struct PlasticIncrement {
   double value = 0;
@@ -51,11 +57,13 @@ struct FlowState {
   double stiffening = 1;     ///< G/G0 (Steinberg-Guinan)
 };
 
-/// Pa; of Steinberg-Guinan G0.
+/// Pa; of Steinberg-Guinan G0; of viscoelastic the instantaneous one at rest.
 double shear_modulus(const Strength& strength);
 /// Does the shear modulus depend on the state?
 bool has_variable_shear(const Strength& strength);
 bool has_strength(const Strength& strength);
+/// The law, if it is viscoelastic, or null.
+const TissueLaw* tissue_law(const Strength& strength);
 std::string describe(const Strength& strength);
 
 double flow_stress(const LinearHardening& m, const FlowState& s, double increment);

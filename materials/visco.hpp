@@ -1,32 +1,15 @@
-// The viscoelastic laws of tissue as one type, for whoever carries their state through a step and a remap.
-//
-// State: plain rows of doubles, state_count of them, named by state_names, set_rest at the start. All may be mixed by
-// mass in a remap: deviators and strains are mean values; Bergstroem-Boyce tensors stay positive definite and are made
-// unimodular at the start of the next step. A mean's free energy is not its parts' mean: less, but for Fung's law of either sign.
+// One step of a row of any tissue, for whoever carries its state through a step and a remap (ale/tissue_update).
 #pragma once
 
-#include "materials/visco_fung.hpp"
 #include "materials/visco_integrator.hpp"
-
-#include <variant>
+#include "materials/visco_law.hpp"
 
 namespace ballast {
 
-using TissueLaw = std::variant<Prony, FungQlv, PowerLawZener, BergstroemBoyce>;
+/// An instantaneous elastic strain (symmetric, traceless, small) of one cell; its stress changes by 2 G times it, G the instant
+/// modulus, Bergstroem-Boyce's at small strains only. `state`: state_count values.
+void strain_at_once(const TissueLaw& law, const Sym& strain, std::span<double> state);
 
-inline std::size_t state_count(const TissueLaw& law) {
-  return std::visit([](const auto& m) { return state_count(m); }, law);
-}
-inline std::vector<std::string> state_names(const TissueLaw& law) {
-  return std::visit([](const auto& m) { return state_names(m); }, law);
-}
-inline void set_rest(const TissueLaw& law, std::span<double> state) {
-  std::visit([&](const auto& m) { set_rest(m, state); }, law);
-}
-/// Pa, of the fastest deformation at rest: for the sound speed.
-inline double instant_shear(const TissueLaw& law) {
-  return std::visit([](const auto& m) { return instant_shear(m); }, law);
-}
 /// One step of a row; linear and quasi-linear laws do without the integrator.
 [[nodiscard]] inline std::optional<TissueFailure> advance(const TissueLaw& law, TissueIntegrator& integrator, const ViscoRow& row) {
   if (const auto* prony = std::get_if<Prony>(&law)) {

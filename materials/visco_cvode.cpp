@@ -269,6 +269,7 @@ BatchSolver::BatchSolver(BatchSolver&&) noexcept = default;
 BatchSolver& BatchSolver::operator=(BatchSolver&&) noexcept = default;
 
 const BatchCounts& BatchSolver::counts() const { return impl_->counts; }
+void BatchSolver::reset_counts() { impl_->counts = {}; }
 
 template <class Law, class Drive>
 std::optional<BatchFailure> BatchSolver::solve(const Law& law, std::span<const Drive> drives, std::span<BranchState> states) {

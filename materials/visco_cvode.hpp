@@ -51,6 +51,7 @@ public:
   solve(const Law& law, std::span<const Drive> drives, std::span<BranchState> states);
 
   [[nodiscard]] const BatchCounts& counts() const;
+  void reset_counts();
 
 private:
   struct Impl;

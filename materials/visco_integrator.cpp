@@ -20,6 +20,28 @@ TissueCounts TissueIntegrator::counts() const {
   return all;
 }
 
+void TissueIntegrator::reset_counts() {
+  counts_ = {};
+  solver_.reset_counts();
+}
+
+void add(TissueCounts& to, const TissueCounts& more) {
+  for (std::size_t q = 0; q < to.fast.size(); ++q) {
+    to.fast[q] += more.fast[q];
+  }
+  to.over += more.over;
+  to.no_number += more.no_number;
+  to.stiff += more.stiff;
+  to.worst_estimate = std::max(to.worst_estimate, more.worst_estimate);
+  to.cvode.batches += more.cvode.batches;
+  to.cvode.cells += more.cvode.cells;
+  to.cvode.steps += more.cvode.steps;
+  to.cvode.rates += more.cvode.rates;
+  to.cvode.solves += more.cvode.solves;
+  to.cvode.failures += more.cvode.failures;
+  to.cvode.seconds += more.cvode.seconds;
+}
+
 void TissueIntegrator::size_for(std::size_t cells) {
   if (states_.size() < cells) {
     states_.resize(cells);

@@ -38,6 +38,9 @@ struct TissueCounts {
   BatchCounts cvode{};
 };
 
+/// Sums; the larger worst estimate.
+void add(TissueCounts& to, const TissueCounts& more);
+
 struct TissueFailure {
   int cell = 0; ///< of the row
   std::size_t branch = 0;
@@ -58,6 +61,7 @@ public:
   [[nodiscard]] std::optional<TissueFailure> advance(const BergstroemBoyce& m, const ViscoRow& row);
 
   [[nodiscard]] TissueCounts counts() const;
+  void reset_counts();
 
 private:
   template <class Law, class Drive>

@@ -27,6 +27,8 @@ inline void set(double& value, const Section& in, const char* key) { value = in.
 void read_eos(Deck& deck, const Section& in, Material& m, bool fresh);
 /// Strength; after the equation of state. `temperature`: ambient, K.
 void read_strength(Deck& deck, const Section& in, Material& m, double temperature);
+/// The `law`-th of TissueLaw; `fresh`: the material has another model.
+Viscoelastic read_viscoelastic(Deck& deck, const Section& in, const Material& m, std::size_t law, bool fresh);
 /// Failure; after strength.
 void read_failure(Deck& deck, const Section& in, Material& m, double temperature);
 

@@ -62,6 +62,45 @@ void unpack(const std::vector<double>& v, Ledger& l) {
   l.mass_out.assign(v.begin() + 18, v.end());
 }
 
+template <int Dim> bool any_tissue(const Scene<Dim>& scene) {
+  return std::any_of(scene.blocks.begin(), scene.blocks.end(), [](const Block<Dim>& b) {
+    return std::any_of(b.materials.begin(), b.materials.end(), [](const MaterialSlot& s) { return s.memories > 0; });
+  });
+}
+
+/// Energies by material, then counts; seconds and the worst estimate are of no use to a restart but to its summary.
+std::vector<double> pack_tissue(const Ledger& l) {
+  const TissueCounts& c = l.tissue_counts;
+  const auto number = [](long n) { return static_cast<double>(n); };
+  std::vector<double> v = {number(l.tissue_repairs), number(c.fast[0]), number(c.fast[1]), number(c.fast[2]), number(c.fast[3]), number(c.over),
+                           number(c.no_number), number(c.stiff), c.worst_estimate, number(c.cvode.batches), number(c.cvode.cells),
+                           number(c.cvode.steps), number(c.cvode.rates), number(c.cvode.solves), number(c.cvode.failures), c.cvode.seconds};
+  for (const TissueEnergy& e : l.tissue) {
+    v.insert(v.end(), {e.work, e.dissipated, e.lost});
+  }
+  return v;
+}
+
+void unpack_tissue(const std::vector<double>& v, Ledger& l) {
+  std::size_t at = 0;
+  const auto number = [&] { return v.at(at++); };
+  const auto count = [&] { return static_cast<long>(number()); };
+  TissueCounts& c = l.tissue_counts;
+  for (long* n : {&l.tissue_repairs, &c.fast[0], &c.fast[1], &c.fast[2], &c.fast[3], &c.over, &c.no_number, &c.stiff}) {
+    *n = count();
+  }
+  c.worst_estimate = number();
+  for (long* n : {&c.cvode.batches, &c.cvode.cells, &c.cvode.steps, &c.cvode.rates, &c.cvode.solves, &c.cvode.failures}) {
+    *n = count();
+  }
+  c.cvode.seconds = number();
+  l.tissue.clear();
+  while (at < v.size()) {
+    const double work = number(), dissipated = number(), lost = number();
+    l.tissue.push_back({work, dissipated, lost});
+  }
+}
+
 } // namespace
 
 template <int Dim>
@@ -73,6 +112,9 @@ void write_checkpoint(const std::filesystem::path& path, const Scene<Dim>& scene
   counts.insert(counts.end(), clock.census.begin(), clock.census.end());
   out.put("clock/counts", counts);
   out.put("ledger", pack(scene.ledger));
+  if (any_tissue(scene)) {
+    out.put("tissue", pack_tissue(scene.ledger));
+  }
   out.put("memory/start", std::vector<double>{memory.energy_start, memory.momentum_start[0], memory.momentum_start[1],
                                               memory.momentum_start[2], memory.next_fields, memory.next_history, memory.wall_before});
   out.put("memory/mass_start", memory.mass_start);
@@ -123,6 +165,9 @@ void read_checkpoint(const std::filesystem::path& path, Scene<Dim>& scene, Clock
     throw Error(fmt::format("{}: written by a version of the program that kept another ledger; start the deck anew", path.string()));
   }
   unpack(ledger, scene.ledger);
+  if (any_tissue(scene)) {
+    unpack_tissue(in.get_doubles("tissue"), scene.ledger);
+  }
   const auto start = in.get_doubles("memory/start");
   memory.energy_start = start.at(0);
   memory.momentum_start = {start.at(1), start.at(2), start.at(3)};

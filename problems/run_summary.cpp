@@ -13,6 +13,31 @@
 
 namespace ballast {
 
+namespace {
+
+/// Energies of viscoelastic materials, and how their nonlinear branches were integrated; empty without any.
+template <int Dim> nlohmann::ordered_json tissue_account(const Block<Dim>& b, const Totals& t, const Ledger& l) {
+  nlohmann::ordered_json j;
+  for (std::size_t m = 0; m < b.materials.size(); ++m) {
+    if (b.materials[m].memories > 0) {
+      const TissueEnergy e = m < l.tissue.size() ? l.tissue[m] : TissueEnergy{};
+      j["energy_J"][b.materials[m].material.name] = {
+          {"work", e.work}, {"stored", t.free_energy[m]}, {"dissipated", e.dissipated}, {"lost_in_remaps_and_at_interfaces", e.lost}};
+    }
+  }
+  if (!j.empty()) {
+    const TissueCounts& c = l.tissue_counts;
+    j["branch_steps"] = {{"by_1_substep", c.fast[0]}, {"by_2", c.fast[1]}, {"by_4", c.fast[2]}, {"by_8", c.fast[3]},
+                         {"by_cvode", c.stiff}, {"above_the_tolerance", c.over - c.stiff < 0 ? 0 : c.over - c.stiff}};
+    j["cvode"] = {{"batches", c.cvode.batches}, {"steps", c.cvode.steps}, {"failures", c.cvode.failures}, {"seconds", c.cvode.seconds}};
+    j["worst_estimate"] = c.worst_estimate;
+    j["states_repaired"] = l.tissue_repairs;
+  }
+  return j;
+}
+
+} // namespace
+
 template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const std::string& message) {
   using nlohmann::ordered_json;
   const Block<Dim>& b = scene_.blocks[0];
@@ -83,6 +108,9 @@ template <int Dim> void RunSession<Dim>::summary(const std::string& ended, const
                               {"remap_loss_not_returned_relative", l.remap_kinetic_loss / energy_scale}};
   j["floors"] = {{"slivers_dropped", l.slivers}, {"sliver_mass_kg", l.sliver_mass}, {"energy_return_cut", l.energy_floors},
                  {"spalled_cells", l.spalled_cells}, {"void_residues_closed", l.closed_voids}, {"step_retries", l.retries}};
+  if (const auto tissue = tissue_account(b, t, l); !tissue.empty()) {
+    j["tissue"] = tissue;
+  }
   const Results& res = spec_.results;
   if (!res.bullet.empty()) {
     const BodyMeasure m = measure_body(b, bullet_slots(), res.shot_axis, res.shot_direction);

@@ -164,7 +164,18 @@ const SectionSpec& numerics() {
         .kind = flag,
         .doc = "cells at rest are passed over, which changes no bit of the results; off only to measure what that saves. Meshes that "
                "follow something and scenes with inflow never sleep",
-        .fallback = "true"}}};
+        .fallback = "true"},
+       {.name = "tissue_path",
+        .kind = choice,
+        .doc = "nonlinear viscoelastic branches (power law, Bergstroem-Boyce): exponential substeps where their own estimate meets the tolerance, "
+               "CVODE for the others (mixed) or not (adaptive: they are counted), or CVODE for all",
+        .fallback = "mixed",
+        .choices = {"adaptive", "mixed", "cvode"}},
+       {.name = "tissue_tolerance",
+        .kind = quantity,
+        .doc = "error of a step's stress over the stress; of CVODE a tenth of it",
+        .range = {1e-9, 0.1},
+        .fallback = "1e-3"}}};
   return spec;
 }
 

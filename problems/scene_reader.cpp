@@ -115,6 +115,9 @@ void read_numerics(Deck& deck, DeckNode& node, SceneSpec& scene) {
   check_steps(deck, in, scene);
   n.spall = in.flag("spall");
   n.sleeping = in.flag("sleeping");
+  n.tissue.path = std::array{BranchPath::adaptive, BranchPath::mixed, BranchPath::cvode}[static_cast<std::size_t>(in.choice("tissue_path"))];
+  n.tissue.tolerance = in.number("tissue_tolerance", n.tissue.tolerance);
+  n.tissue.cvode.tolerance = 0.1 * n.tissue.tolerance;
 }
 
 /// Checks the length and that the point lies in the mesh.

@@ -248,7 +248,12 @@ Cost estimated_cost(const SceneSpec& scene) {
   // its materials what one fills a cell with, conserved twice, derived once.
   const int block = 5 * dim + 3 + 7 + 5 * dim + deviator + (strength ? 2 : 0);
   const bool breaks = std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.failure.has_value(); });
-  const int material = 2 * (3 + deviator + (strength ? 1 : 0) + (breaks ? 1 : 0)) + (strength ? 3 : 2);
+  int memory = 0; // of tissue: free energy and tensors of four components, in space six
+  for (const Material& m : scene.materials) {
+    const TissueLaw* law = tissue_law(m.strength);
+    memory = std::max(memory, law != nullptr ? 1 + static_cast<int>(state_count(*law)) / 6 * (dim == 2 ? 4 : 6) : 0);
+  }
+  const int material = 2 * (3 + deviator + (strength ? 1 : 0) + (breaks ? 1 : 0) + memory) + (strength ? 3 : 2);
   const int sliding = scene.sliding.empty() ? 0 : 5 * dim + 4; // nodes 4 vectors and 2 scalars, cells a vector and 2 scalars
   c.bytes_per_cell = 8.0 * (block + material + sliding);
   // Measured microseconds a cell-step on one core (docs/performance.md); cells with several materials cost more.

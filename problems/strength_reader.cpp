@@ -13,8 +13,19 @@ const std::vector<ModelKeys>& strength_keys() {
       {"linear_hardening", {"shear_modulus", "yield", "hardening"}},
       {"johnson_cook", {"shear_modulus", "A", "B", "n", "C", "m", "reference_rate", "reference_temperature"}},
       {"steinberg_guinan",
-       {"shear_modulus", "yield", "yield_max", "beta", "n", "shear_per_pressure", "thermal_softening", "melt_a"}}};
+       {"shear_modulus", "yield", "yield_max", "beta", "n", "shear_per_pressure", "thermal_softening", "melt_a"}},
+      {"prony", {"long_shear", "branch_shear", "branch_time"}},
+      {"power_law", {"long_shear", "branch_shear", "branch_time", "branch_reference", "branch_exponent"}},
+      {"fung", {"shear_modulus", "stiffening", "branch_share", "branch_time"}},
+      {"bergstroem_boyce",
+       {"network_a_shear", "network_b_shear", "lock_stretch", "flow_rate", "flow_stress", "flow_exponent", "flow_stretch_power", "flow_start"}}};
   return table;
+}
+
+/// Position of a material's model in the table above: the laws of viscoelastic ones in the order of TissueLaw.
+std::size_t model_of(const Strength& strength) {
+  const TissueLaw* law = tissue_law(strength);
+  return strength.index() + (law != nullptr ? law->index() : 0);
 }
 
 /// Numbers that thermal models take from the material itself.
@@ -94,18 +105,19 @@ SteinbergGuinan read_steinberg(Deck& deck, const Section& in, const Material& m,
 } // namespace
 
 void read_strength(Deck& deck, const Section& in, Material& m, double temperature) {
-  std::size_t model = m.strength.index();
+  std::size_t model = model_of(m.strength);
   bool fresh = false;
   if (in.has("strength")) {
-    model = static_cast<std::size_t>(in.choice("strength")); // the choices are in the order of the variant
-    fresh = model != m.strength.index();
+    model = static_cast<std::size_t>(in.choice("strength")); // the choices are in the order of the table
+    fresh = model != model_of(m.strength);
   }
   refuse_foreign(deck, in, strength_keys(), model);
   switch (model) {
   case 0: m.strength = NoStrength{}; break;
   case 1: m.strength = read_linear(deck, in, m, fresh); break;
   case 2: m.strength = read_johnson_cook(deck, in, m, fresh, temperature); break;
-  default: m.strength = read_steinberg(deck, in, m, fresh, temperature); break;
+  case 3: m.strength = read_steinberg(deck, in, m, fresh, temperature); break;
+  default: m.strength = read_viscoelastic(deck, in, m, model - 4, fresh); break;
   }
 }
 
@@ -139,6 +151,13 @@ void read_failure(Deck& deck, const Section& in, Material& m, double temperature
       return;
     }
     deck.fail_key(*in.node("failure"), "a material without strength has no plastic strain to fail by", "with a `strength`");
+  }
+  if (tissue_law(m.strength) != nullptr) {
+    if (!fresh) {
+      m.failure.reset();
+      return;
+    }
+    deck.fail_key(*in.node("failure"), "a viscoelastic material has no plastic strain to fail by", "failure = \"none\"");
   }
   const auto* cook = std::get_if<JohnsonCook>(&m.strength);
   f.reference_rate = cook != nullptr ? cook->reference_rate : 1.0;

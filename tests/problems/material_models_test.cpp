@@ -75,5 +75,29 @@ TEST(MaterialModels, FailureIsTheDecksAndGoesWithTheStrength) {
   EXPECT_EQ(given.materials[0].failure->melt_temperature, 1356);
 }
 
+TEST(MaterialModels, ViscoelasticLawsArriveAsWritten) {
+  const auto law = [](const SceneSpec& s) { return *tissue_law(s.materials[0].strength); };
+  const auto prony = std::get<Prony>(law(scene_with("muscle", "strength = \"prony\"\nlong_shear = \"2 kPa\"\nbranch_shear = [\"1 kPa\", \"3 kPa\"]\nbranch_time = [\"1 ms\", \"2 us\"]")));
+  EXPECT_EQ(prony.long_shear, 2e3);
+  EXPECT_EQ(prony.branches, 2u);
+  EXPECT_EQ(prony.branch[1].shear, 3e3);
+  EXPECT_EQ(prony.branch[1].time, 2e-6);
+  const auto power = std::get<PowerLawZener>(law(scene_with("gelatin_10_visco", "branch_exponent = [4]\nbranch_time = [\"0.1 ms\"]")));
+  EXPECT_EQ(power.branches, 1u);
+  EXPECT_EQ(power.branch[0].exponent, 4);
+  EXPECT_EQ(power.branch[0].time, 1e-4);
+  EXPECT_EQ(power.branch[0].shear, 1e6); // the library's
+  const auto fung = std::get<FungQlv>(law(scene_with("muscle", "strength = \"fung\"\nshear_modulus = \"2 kPa\"\nstiffening = 3\nbranch_share = [0.5]\nbranch_time = [\"1 ms\"]")));
+  EXPECT_EQ(fung.shear, 2e3);
+  EXPECT_EQ(fung.stiffening, 3);
+  EXPECT_EQ(fung.branch[0].share, 0.5);
+  const auto boyce = std::get<BergstroemBoyce>(law(scene_with("brain", "lock_stretch = 3\nflow_rate = \"2 1/s\"")));
+  EXPECT_EQ(boyce.a.lock_stretch, 3);
+  EXPECT_EQ(boyce.b.lock_stretch, 3);
+  EXPECT_EQ(boyce.rate, 2);
+  EXPECT_EQ(boyce.b.shear, 1500);
+  EXPECT_EQ(tissue_law(scene_with("brain", "strength = \"none\"").materials[0].strength), nullptr);
+}
+
 } // namespace
 } // namespace ballast
