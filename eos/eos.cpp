@@ -37,6 +37,10 @@ std::string describe_one(const Jwl& m) {
 std::string describe_one(const LinearBulk& m) {
   return fmt::format("linear bulk, rho0 {:g}, K {:g} Pa{}", m.rho0, m.K, m.gamma0 > 0 ? fmt::format(", Gamma0 {:g}", m.gamma0) : "");
 }
+std::string describe_one(const Bubbly& m) {
+  return fmt::format("bubbly, rho0 {:g}, {:g} of it gas at {:g} Pa, gamma {:g}, tissue {:g} m/s, skeleton {:g} Pa",
+                     m.rho0, m.gas_fraction, m.gas_pressure, m.gamma, m.c0, m.skeleton_modulus);
+}
 
 Condensed condensed_one(const IdealGas&) { return {}; }
 Condensed condensed_one(const StiffenedGas&) { return {}; }
@@ -44,6 +48,7 @@ Condensed condensed_one(const Jwl&) { return {}; }
 Condensed condensed_one(const MieGruneisen& m) { return {m.rho0, m.c0, m.gamma0, m.s, 0}; }
 Condensed condensed_one(const CubicGruneisen& m) { return {m.rho0, m.c0, m.gamma0, m.s1, m.s2}; }
 Condensed condensed_one(const LinearBulk& m) { return {m.rho0, std::sqrt(m.K / m.rho0), m.gamma0, 0, 0}; }
+Condensed condensed_one(const Bubbly& m) { return {m.rho0, std::sqrt(m.sound_speed_squared(m.rho0, 0)), 0, 0, 0}; }
 
 constexpr double snap_ulp = 16 * 2.220446049250313e-16; // mass / volume rounds by a few ulp
 } // namespace
@@ -58,7 +63,7 @@ Condensed condensed(const Eos& eos) {
 
 bool barotropic(const Eos& eos) {
   const auto* bulk = std::get_if<LinearBulk>(&eos);
-  return bulk != nullptr && bulk->gamma0 == 0;
+  return std::holds_alternative<Bubbly>(eos) || (bulk != nullptr && bulk->gamma0 == 0);
 }
 
 namespace {

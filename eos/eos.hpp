@@ -5,6 +5,7 @@
 // Energies are per kilogram and carry no offset between materials.
 #pragma once
 
+#include "eos/bubbly.hpp"
 #include "eos/cubic_gruneisen.hpp"
 #include "eos/jwl.hpp"
 #include "eos/linear_bulk.hpp"
@@ -99,7 +100,7 @@ private:
   }
 };
 
-using Eos = std::variant<IdealGas, StiffenedGas, MieGruneisen, CubicGruneisen, Jwl, LinearBulk>;
+using Eos = std::variant<IdealGas, StiffenedGas, MieGruneisen, CubicGruneisen, Jwl, LinearBulk, Bubbly>;
 
 double pressure(const Eos& eos, double rho, double e);
 double sound_speed_squared(const Eos& eos, double rho, double e);
