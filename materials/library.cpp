@@ -174,6 +174,8 @@ const std::vector<Material>& library() {
     made.insert(made.begin() + 4, metals.begin(), metals.end()); // after the other metals
     const std::vector<Material> tissues = viscoelastic_tissues();
     made.insert(made.end(), tissues.begin(), tissues.end());
+    const std::vector<Material> torso = torso_tissues();
+    made.insert(made.end(), torso.begin(), torso.end());
     std::transform(made.begin(), made.end(), made.begin(), finished);
     return made;
   }();
