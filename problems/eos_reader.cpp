@@ -15,7 +15,8 @@ const std::vector<ModelKeys>& eos_keys() {
       {"cubic_gruneisen", {"c0", "s1", "s2", "s3", "gamma0", "b"}},
       {"jwl", {"jwl_A", "jwl_B", "R1", "R2", "omega", "detonation_energy"}},
       {"linear_bulk", {"bulk_modulus", "gamma0"}},
-      {"bubbly", {"gas_fraction", "gas_pressure", "gamma", "c0", "skeleton_modulus"}}};
+      {"bubbly", {"gas_fraction", "gas_pressure", "gamma", "c0", "skeleton_modulus"}},
+      {"p_alpha", {"solid_density", "bulk_modulus", "foam_modulus", "crush_pressure", "solid_pressure"}}};
   return table;
 }
 
@@ -123,6 +124,35 @@ Bubbly read_bubbly(Deck& deck, const Section& in, const Material& m, bool fresh)
   return eos;
 }
 
+/// Why there is no such foam, or null.
+const char* foam_fault(const PAlpha& eos) {
+  if (eos.solid_density <= eos.rho0) {
+    return "the foam is not lighter than its solid";
+  }
+  if (eos.solid_pressure <= eos.crush_pressure) {
+    return "it is solid before it begins to crush";
+  }
+  if (eos.foam_modulus / eos.share() >= eos.K) {
+    return "the foam is stiffer by its share of solid than the solid: foam_modulus solid_density/density must be below bulk_modulus";
+  }
+  const bool crushes = eos.first_crush() - eos.crush_pressure / eos.K < 1;
+  return crushes ? nullptr : "the foam is as dense as its solid before it begins to crush: crush_pressure is too far above foam_modulus";
+}
+
+PAlpha read_foam(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  auto eos = start<PAlpha>(deck, in, m, fresh, {"solid_density", "bulk_modulus", "foam_modulus", "crush_pressure", "solid_pressure"}, "p_alpha");
+  eos.rho0 = m.density;
+  set(eos.solid_density, in, "solid_density");
+  set(eos.K, in, "bulk_modulus");
+  set(eos.foam_modulus, in, "foam_modulus");
+  set(eos.crush_pressure, in, "crush_pressure");
+  set(eos.solid_pressure, in, "solid_pressure");
+  if (const char* fault = foam_fault(eos)) {
+    deck.fail(in.has("solid_density") ? *in.node("solid_density") : in.self(), fault, "0 < crush_pressure < solid_pressure, density < solid_density");
+  }
+  return eos;
+}
+
 } // namespace
 
 void read_eos(Deck& deck, const Section& in, Material& m, bool fresh) {
@@ -140,7 +170,8 @@ void read_eos(Deck& deck, const Section& in, Material& m, bool fresh) {
   case 3: m.eos = read_cubic(deck, in, m, fresh); break;
   case 4: m.eos = read_jwl(deck, in, m, fresh); break;
   case 5: m.eos = read_bulk(deck, in, m, fresh); break;
-  default: m.eos = read_bubbly(deck, in, m, fresh); break;
+  case 6: m.eos = read_bubbly(deck, in, m, fresh); break;
+  default: m.eos = read_foam(deck, in, m, fresh); break;
   }
 }
 
