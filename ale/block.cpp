@@ -172,14 +172,16 @@ void allocate_block(Block<Dim>& b, const std::array<std::vector<double>, 3>& lin
     slot.strength = !slot.is_void && has_strength(slot.material.strength);
     strength = strength || slot.strength;
     slot.damages = slot.strength && slot.material.failure.has_value() && tissue_law(slot.material.strength) == nullptr;
+    slot.compacts = !slot.is_void && std::holds_alternative<PAlpha>(slot.material.eos);
     slot.variable_shear = slot.strength && has_variable_shear(slot.material.strength);
     slot.shear = slot.strength ? shear_modulus(slot.material.strength) : 0;
     const TissueLaw* tissue = slot.strength ? tissue_law(slot.material.strength) : nullptr;
     slot.memories = tissue != nullptr ? static_cast<int>(state_count(*tissue)) / 6 : 0;
     const int memory = tissue != nullptr ? 1 + slot.memories * memory_components<Dim> : 0;
     const int history = slot.strength ? stress_components<Dim> + 1 + (slot.damages ? 1 : 0) + memory : 0;
+    const int compaction = slot.compacts ? 1 : 0;
     const int derived = slot.is_void ? 0 : slot.strength ? 3 + (slot.variable_shear ? 1 : 0) : 2;
-    slot.store = TileStore(g, rows_per_tile, slot.is_void ? 1 : 3 + history, derived);
+    slot.store = TileStore(g, rows_per_tile, slot.is_void ? 1 : 3 + history + compaction, derived);
   }
   allocate_sliding(b);
   if (strength) {

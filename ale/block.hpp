@@ -48,12 +48,14 @@ struct MaterialSlot {
   bool slides = false; ///< keeps its own velocity along interfaces with what does not (remap/sliding)
   bool strength = false;
   bool damages = false;        ///< has a failure model
+  bool compacts = false;       ///< foam: its compaction is the last of the conserved fields
   bool variable_shear = false; ///< the shear modulus depends on the state and has a field
   double shear = 0;            ///< shear modulus if it does not, Pa
   GaugeReference reference; ///< the material's initial state
   TileStore store;
   int memories = 0; ///< tensors that a viscoelastic material remembers
 
+  int compaction_field() const { return store.conserved() - 1; } ///< of what compacts only
   int pressure_field() const { return store.conserved(); }
   int modulus_field() const { return store.conserved() + 1; }
   int flow_stress_field() const { return store.conserved() + 2; } ///< with strength only

@@ -43,8 +43,12 @@ void evaluate(MaterialSlot& slot, double reference_pressure, int r, int at, int 
   for (int i = 0; i < count; ++i) {
     rho[static_cast<std::size_t>(i)] = m[i] / (f[i] * v[i]);
   }
-  evaluate_row(slot.material.eos, slot.reference, count, rho.data(), e,
-               slot.store.row(slot.pressure_field(), r) + at, slot.store.row(slot.modulus_field(), r) + at);
+  double *pressure = slot.store.row(slot.pressure_field(), r) + at, *modulus = slot.store.row(slot.modulus_field(), r) + at;
+  if (slot.compacts) { // only here: a step's state is evaluated once it is final, and twice is as good as once
+    evaluate_foam(std::get<PAlpha>(slot.material.eos), slot.reference, count, rho.data(), slot.store.row(slot.compaction_field(), r) + at, pressure, modulus);
+  } else {
+    evaluate_row(slot.material.eos, slot.reference, count, rho.data(), e, pressure, modulus);
+  }
   if (slot.variable_shear) {
     evaluate_shear(slot, reference_pressure, r, at, count, rho.data());
   }

@@ -241,7 +241,7 @@ template <int Dim> void pull_back_to_yield(const Material& material, int count, 
             const double limit = flow_stress(model, state, 0);
             // Rate hardening is not known here (it belongs to the next step's strain): a rate-dependent
             // material keeps its stress, and the next return brings it to the surface of its rate.
-            if constexpr (std::is_same_v<Model, JohnsonCook>) {
+            if (has_rate(model)) {
               rows.flow_stress[i] = std::max(limit, q);
               continue;
             }

@@ -37,6 +37,14 @@ std::string describe_one(const Jwl& m) {
 std::string describe_one(const LinearBulk& m) {
   return fmt::format("linear bulk, rho0 {:g}, K {:g} Pa{}", m.rho0, m.K, m.gamma0 > 0 ? fmt::format(", Gamma0 {:g}", m.gamma0) : "");
 }
+std::string describe_one(const Bubbly& m) {
+  return fmt::format("bubbly, rho0 {:g}, {:g} of it gas at {:g} Pa, gamma {:g}, tissue {:g} m/s, skeleton {:g} Pa",
+                     m.rho0, m.gas_fraction, m.gas_pressure, m.gamma, m.c0, m.skeleton_modulus);
+}
+std::string describe_one(const PAlpha& m) {
+  return fmt::format("p-alpha, rho0 {:g}, solid {:g} kg/m3, K {:g} Pa, foam K {:g} Pa, crushes from {:g} to {:g} Pa",
+                     m.rho0, m.solid_density, m.K, m.foam_modulus, m.crush_pressure, m.solid_pressure);
+}
 
 Condensed condensed_one(const IdealGas&) { return {}; }
 Condensed condensed_one(const StiffenedGas&) { return {}; }
@@ -44,6 +52,8 @@ Condensed condensed_one(const Jwl&) { return {}; }
 Condensed condensed_one(const MieGruneisen& m) { return {m.rho0, m.c0, m.gamma0, m.s, 0}; }
 Condensed condensed_one(const CubicGruneisen& m) { return {m.rho0, m.c0, m.gamma0, m.s1, m.s2}; }
 Condensed condensed_one(const LinearBulk& m) { return {m.rho0, std::sqrt(m.K / m.rho0), m.gamma0, 0, 0}; }
+Condensed condensed_one(const Bubbly& m) { return {m.rho0, std::sqrt(m.sound_speed_squared(m.rho0, 0)), 0, 0, 0}; }
+Condensed condensed_one(const PAlpha& m) { return {m.rho0, std::sqrt(m.sound_speed_squared(m.rho0, 0)), 0, 0, 0}; }
 
 constexpr double snap_ulp = 16 * 2.220446049250313e-16; // mass / volume rounds by a few ulp
 } // namespace
@@ -58,7 +68,7 @@ Condensed condensed(const Eos& eos) {
 
 bool barotropic(const Eos& eos) {
   const auto* bulk = std::get_if<LinearBulk>(&eos);
-  return bulk != nullptr && bulk->gamma0 == 0;
+  return std::holds_alternative<Bubbly>(eos) || std::holds_alternative<PAlpha>(eos) || (bulk != nullptr && bulk->gamma0 == 0);
 }
 
 namespace {
@@ -80,6 +90,16 @@ void evaluate_model(const Model model, const GaugeReference ref, int count, cons
 
 void evaluate_row(const Eos& eos, const GaugeReference& ref, int count, const double* rho, const double* e, double* gauge_pressure, double* modulus) {
   std::visit([&](const auto& model) { evaluate_model(model, ref, count, rho, e, gauge_pressure, modulus); }, eos);
+}
+
+void evaluate_foam(const PAlpha& eos, const GaugeReference& ref, int count, const double* rho, double* compaction, double* gauge_pressure, double* modulus) {
+  for (int i = 0; i < count; ++i) {
+    compaction[i] = eos.compacted(rho[i], compaction[i]);
+    const PAlpha::Branch at = eos.branch(rho[i], compaction[i]);
+    const bool at_reference = compaction[i] == 0 && std::abs(rho[i] - ref.rho) <= snap_ulp * ref.rho;
+    gauge_pressure[i] = (at_reference ? 0.0 : eos.p_rest + at.p - ref.p) + ref.offset;
+    modulus[i] = rho[i] * at.slope / eos.solid_density;
+  }
 }
 
 } // namespace ballast

@@ -5,9 +5,11 @@
 // Energies are per kilogram and carry no offset between materials.
 #pragma once
 
+#include "eos/bubbly.hpp"
 #include "eos/cubic_gruneisen.hpp"
 #include "eos/jwl.hpp"
 #include "eos/linear_bulk.hpp"
+#include "eos/p_alpha.hpp"
 
 #include <string>
 #include <variant>
@@ -99,14 +101,14 @@ private:
   }
 };
 
-using Eos = std::variant<IdealGas, StiffenedGas, MieGruneisen, CubicGruneisen, Jwl, LinearBulk>;
+using Eos = std::variant<IdealGas, StiffenedGas, MieGruneisen, CubicGruneisen, Jwl, LinearBulk, Bubbly, PAlpha>;
 
 double pressure(const Eos& eos, double rho, double e);
 double sound_speed_squared(const Eos& eos, double rho, double e);
 double energy(const Eos& eos, double rho, double p);
 std::string describe(const Eos& eos);
 
-/// Is pressure a function of density alone, so that energy() cannot bring a material to a pressure?
+/// Is pressure a function of density (and history) alone, so that energy() cannot bring a material to a pressure?
 bool barotropic(const Eos& eos);
 
 /// What the condensed models share: reference density (kg/m3), sound speed there (m/s), Grueneisen parameter and the
@@ -132,5 +134,14 @@ void evaluate_row(const Eos& eos,
                   const double* e,
                   double* gauge_pressure,
                   double* modulus);
+
+/// A row of foam with its compaction so far, which grows to that of its densities.
+void evaluate_foam(const PAlpha& eos,
+                   const GaugeReference& ref,
+                   int count,
+                   const double* rho,
+                   double* compaction,
+                   double* gauge_pressure,
+                   double* modulus);
 
 } // namespace ballast

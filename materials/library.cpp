@@ -140,11 +140,12 @@ Material gelatin_10() {
       .name = "gelatin_10",
       .eos = gruneisen(1030, 1520, 1.8, 0.17),
       .strength = LinearHardening{.shear_modulus = 0.28e6, .yield = 0.22e6, .hardening = 1e3},
+      .failure = JohnsonCookFailure{.D1 = 0.9},
       .density = 1030,
       .spall_pressure = -14e3,
       .specific_heat = 3700,
       .source =
-          "density, yield 0.22 MPa, hardening 1 kPa, cut-off 14 kPa: Wen 2013 via Zochowski 2019 "
+          "density, yield 0.22 MPa, hardening 1 kPa, failure strain 0.9, cut-off 14 kPa: Wen 2013 via Zochowski 2019 "
           "[R:M1 2nd]; G 0.28 MPa reads its 0.85 MPa as Young's modulus [K2]; c0, s, gamma0, cp: "
           "an MPM code's card [R:G5 2nd]. Rate-independent: real gelatin stiffens 100-fold at "
           "1000 /s",
@@ -174,6 +175,8 @@ const std::vector<Material>& library() {
     made.insert(made.begin() + 4, metals.begin(), metals.end()); // after the other metals
     const std::vector<Material> tissues = viscoelastic_tissues();
     made.insert(made.end(), tissues.begin(), tissues.end());
+    const std::vector<Material> torso = torso_tissues();
+    made.insert(made.end(), torso.begin(), torso.end());
     std::transform(made.begin(), made.end(), made.begin(), finished);
     return made;
   }();

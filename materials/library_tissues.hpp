@@ -1,4 +1,4 @@
-// Private to the library: tissues with memory (materials/visco_law).
+// Private to the library: tissues and simulants.
 #pragma once
 
 #include "materials/material.hpp"
@@ -8,6 +8,7 @@
 namespace ballast {
 
 /// specific_energy not yet set.
-std::vector<Material> viscoelastic_tissues();
+std::vector<Material> viscoelastic_tissues(); ///< with memory (materials/visco_law), the first ones
+std::vector<Material> torso_tissues();
 
 } // namespace ballast

@@ -43,6 +43,19 @@ std::string describe_one(const SteinbergGuinan& m) {
   return fmt::format("Steinberg-Guinan, G {:g}, Y {:g} to {:g} Pa, beta {:g}, n {:g}, G'p {:g}, B {:g} /K, Tm {:g} K, a {:g}",
                      m.shear_modulus, m.yield, m.yield_max, m.beta, m.n, m.shear_per_pressure, m.thermal_softening, m.melt_temperature, m.melt_a);
 }
+std::string describe_rate(const CowperSymonds& m) {
+  return m.matters() ? fmt::format(", Cowper-Symonds {:g} /s, {:g}", m.constant, m.exponent) : "";
+}
+std::string describe_one(const PowerLawPlastic& m) {
+  return fmt::format("power-law hardening, G {:g} Pa, {:g} Pa ({:g} + ep)^{:g}{}", m.shear_modulus, m.coefficient, m.first_strain, m.exponent, describe_rate(m.rate));
+}
+std::string describe_one(const TabulatedHardening& m) {
+  std::string table;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m.points); ++i) {
+    table += fmt::format("{}{:g} Pa at {:g}", i > 0 ? ", " : "", m.stress[i], m.strain[i]);
+  }
+  return fmt::format("tabulated hardening, G {:g} Pa, {}{}", m.shear_modulus, table, describe_rate(m.rate));
+}
 std::string describe_law(const Prony& m) {
   return fmt::format("Prony, G {:g} Pa, long-term {:g} Pa, {} branches", instant_shear(m), m.long_shear, m.branches);
 }

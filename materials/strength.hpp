@@ -5,6 +5,7 @@
 // increment d solves q - 3 G d = sigma_y(ep + d, d/dt, T) on [0, q/3G].
 #pragma once
 
+#include "materials/rate_hardening.hpp"
 #include "materials/steinberg_guinan.hpp"
 #include "materials/visco_law.hpp"
 
@@ -41,7 +42,7 @@ struct Viscoelastic {
   TissueLaw law;
 };
 
-using Strength = std::variant<NoStrength, LinearHardening, JohnsonCook, SteinbergGuinan, Viscoelastic>;
+using Strength = std::variant<NoStrength, LinearHardening, JohnsonCook, SteinbergGuinan, PowerLawPlastic, TabulatedHardening, Viscoelastic>;
 
 struct PlasticIncrement {
   double value = 0;
@@ -66,14 +67,27 @@ bool has_strength(const Strength& strength);
 const TissueLaw* tissue_law(const Strength& strength);
 std::string describe(const Strength& strength);
 
+/// Does the flow stress depend on the rate of the step?
+inline bool has_rate(const LinearHardening&) { return false; }
+inline bool has_rate(const JohnsonCook&) { return true; }
+inline bool has_rate(const SteinbergGuinan&) { return false; }
+inline bool has_rate(const PowerLawPlastic& m) { return m.rate.matters(); }
+inline bool has_rate(const TabulatedHardening& m) { return m.rate.matters(); }
+
 double flow_stress(const LinearHardening& m, const FlowState& s, double increment);
 double flow_stress(const JohnsonCook& m, const FlowState& s, double increment);
 double flow_stress(const SteinbergGuinan& m, const FlowState& s, double increment);
+double flow_stress(const PowerLawPlastic& m, const FlowState& s, double increment);
+double flow_stress(const TabulatedHardening& m, const FlowState& s, double increment);
 [[nodiscard]] PlasticIncrement
 plastic_increment(const LinearHardening& m, const FlowState& s, double trial);
 [[nodiscard]] PlasticIncrement
 plastic_increment(const JohnsonCook& m, const FlowState& s, double trial);
 [[nodiscard]] PlasticIncrement
 plastic_increment(const SteinbergGuinan& m, const FlowState& s, double trial);
+[[nodiscard]] PlasticIncrement
+plastic_increment(const PowerLawPlastic& m, const FlowState& s, double trial);
+[[nodiscard]] PlasticIncrement
+plastic_increment(const TabulatedHardening& m, const FlowState& s, double trial);
 
 } // namespace ballast

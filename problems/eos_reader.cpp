@@ -14,7 +14,9 @@ const std::vector<ModelKeys>& eos_keys() {
       {"mie_gruneisen", {"c0", "s", "gamma0", "gamma_constant"}},
       {"cubic_gruneisen", {"c0", "s1", "s2", "s3", "gamma0", "b"}},
       {"jwl", {"jwl_A", "jwl_B", "R1", "R2", "omega", "detonation_energy"}},
-      {"linear_bulk", {"bulk_modulus", "gamma0"}}};
+      {"linear_bulk", {"bulk_modulus", "gamma0"}},
+      {"bubbly", {"gas_fraction", "gas_pressure", "gamma", "c0", "skeleton_modulus"}},
+      {"p_alpha", {"solid_density", "bulk_modulus", "foam_modulus", "crush_pressure", "solid_pressure"}}};
   return table;
 }
 
@@ -89,6 +91,68 @@ LinearBulk read_bulk(Deck& deck, const Section& in, const Material& m, bool fres
   return eos;
 }
 
+/// A gas fraction that leaves what can be tissue, stiffer than the gas.
+void check_tissue(Deck& deck, const Section& in, const Bubbly& eos) {
+  constexpr double lightest = 300, densest = 3000; // kg/m3: fat is 900, bone 2000
+  DeckNode* given = in.has("gas_fraction") ? in.node("gas_fraction") : in.has("density") ? in.node("density") : nullptr;
+  DeckNode& blame = given != nullptr ? *given : in.self();
+  if (!(eos.gas_fraction < 1)) {
+    deck.fail(blame, "a gas fraction of 1 leaves no tissue", "below 1; eos = \"ideal_gas\" for gas alone");
+    return;
+  }
+  const double tissue = eos.rho0 / (1 - eos.gas_fraction);
+  if (tissue < lightest || tissue > densest) {
+    deck.fail(blame,
+              fmt::format("{:g} kg/m3 with {:g} of it gas make tissue of {:g} kg/m3, which there is not", eos.rho0, eos.gas_fraction, tissue),
+              fmt::format("density/(1 - gas_fraction) from {:g} to {:g} kg/m3", lightest, densest));
+  } else if (eos.tissue_modulus() < 100 * eos.gas_pressure) {
+    deck.fail(in.has("c0") ? *in.node("c0") : blame,
+              fmt::format("tissue of bulk modulus {:g} Pa is not stiff beside gas at {:g} Pa", eos.tissue_modulus(), eos.gas_pressure),
+              "c0 of the tissue alone, 1400 to 1700 m/s");
+  }
+}
+
+Bubbly read_bubbly(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  auto eos = start<Bubbly>(deck, in, m, fresh, {"gas_fraction", "c0"}, "bubbly");
+  eos.rho0 = m.density;
+  set(eos.gas_fraction, in, "gas_fraction");
+  set(eos.gas_pressure, in, "gas_pressure");
+  set(eos.gamma, in, "gamma");
+  set(eos.c0, in, "c0");
+  set(eos.skeleton_modulus, in, "skeleton_modulus");
+  check_tissue(deck, in, eos);
+  return eos;
+}
+
+/// Why there is no such foam, or null.
+const char* foam_fault(const PAlpha& eos) {
+  if (eos.solid_density <= eos.rho0) {
+    return "the foam is not lighter than its solid";
+  }
+  if (eos.solid_pressure <= eos.crush_pressure) {
+    return "it is solid before it begins to crush";
+  }
+  if (eos.foam_modulus / eos.share() >= eos.K) {
+    return "the foam is stiffer by its share of solid than the solid: foam_modulus solid_density/density must be below bulk_modulus";
+  }
+  const bool crushes = eos.first_crush() - eos.crush_pressure / eos.K < 1;
+  return crushes ? nullptr : "the foam is as dense as its solid before it begins to crush: crush_pressure is too far above foam_modulus";
+}
+
+PAlpha read_foam(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  auto eos = start<PAlpha>(deck, in, m, fresh, {"solid_density", "bulk_modulus", "foam_modulus", "crush_pressure", "solid_pressure"}, "p_alpha");
+  eos.rho0 = m.density;
+  set(eos.solid_density, in, "solid_density");
+  set(eos.K, in, "bulk_modulus");
+  set(eos.foam_modulus, in, "foam_modulus");
+  set(eos.crush_pressure, in, "crush_pressure");
+  set(eos.solid_pressure, in, "solid_pressure");
+  if (const char* fault = foam_fault(eos)) {
+    deck.fail(in.has("solid_density") ? *in.node("solid_density") : in.self(), fault, "0 < crush_pressure < solid_pressure, density < solid_density");
+  }
+  return eos;
+}
+
 } // namespace
 
 void read_eos(Deck& deck, const Section& in, Material& m, bool fresh) {
@@ -105,7 +169,9 @@ void read_eos(Deck& deck, const Section& in, Material& m, bool fresh) {
   case 2: m.eos = read_gruneisen(deck, in, m, fresh); break;
   case 3: m.eos = read_cubic(deck, in, m, fresh); break;
   case 4: m.eos = read_jwl(deck, in, m, fresh); break;
-  default: m.eos = read_bulk(deck, in, m, fresh); break;
+  case 5: m.eos = read_bulk(deck, in, m, fresh); break;
+  case 6: m.eos = read_bubbly(deck, in, m, fresh); break;
+  default: m.eos = read_foam(deck, in, m, fresh); break;
   }
 }
 

@@ -127,6 +127,12 @@ void start_at(Material& m, double pressure, double temperature) {
   if (auto* bulk = std::get_if<LinearBulk>(&m.eos)) {
     bulk->p0 = pressure;
   }
+  if (auto* lung = std::get_if<Bubbly>(&m.eos)) {
+    lung->p_rest = pressure;
+  }
+  if (auto* foam = std::get_if<PAlpha>(&m.eos)) {
+    foam->p_rest = pressure;
+  }
   const double charge = charge_of(m.eos);
   m.specific_energy = charge > 0 ? charge : energy(m.eos, m.density, pressure);
 }

@@ -14,6 +14,8 @@ const std::vector<ModelKeys>& strength_keys() {
       {"johnson_cook", {"shear_modulus", "A", "B", "n", "C", "m", "reference_rate", "reference_temperature"}},
       {"steinberg_guinan",
        {"shear_modulus", "yield", "yield_max", "beta", "n", "shear_per_pressure", "thermal_softening", "melt_a"}},
+      {"power_law_plastic", {"shear_modulus", "flow_coefficient", "flow_strain", "n", "rate_constant", "rate_exponent"}},
+      {"tabulated_hardening", {"shear_modulus", "yield_strains", "yield_stresses", "rate_constant", "rate_exponent"}},
       {"prony", {"long_shear", "branch_shear", "branch_time"}},
       {"power_law", {"long_shear", "branch_shear", "branch_time", "branch_reference", "branch_exponent"}},
       {"fung", {"shear_modulus", "stiffening", "branch_share", "branch_time"}},
@@ -102,6 +104,67 @@ SteinbergGuinan read_steinberg(Deck& deck, const Section& in, const Material& m,
   return s;
 }
 
+CowperSymonds read_rate(Deck& deck, const Section& in, CowperSymonds rate, const char* model) {
+  if (in.has("rate_constant") != in.has("rate_exponent") && !rate.matters()) {
+    have(deck, in, {"rate_constant", "rate_exponent"}, fmt::format("the rate factor of {}", model));
+  }
+  set(rate.constant, in, "rate_constant");
+  set(rate.exponent, in, "rate_exponent");
+  return rate;
+}
+
+PowerLawPlastic read_power_law(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  PowerLawPlastic s = fresh ? PowerLawPlastic{} : std::get<PowerLawPlastic>(m.strength);
+  if (fresh) {
+    have(deck, in, {"shear_modulus", "flow_coefficient", "flow_strain", "n"}, "power_law_plastic");
+  }
+  set(s.shear_modulus, in, "shear_modulus");
+  set(s.coefficient, in, "flow_coefficient");
+  set(s.first_strain, in, "flow_strain");
+  set(s.exponent, in, "n");
+  s.rate = read_rate(deck, in, s.rate, "power_law_plastic");
+  return s;
+}
+
+/// Points of the hardening table; the reason, if they are none.
+const char* table_fault(const std::vector<double>& strain, const std::vector<double>& stress) {
+  if (strain.size() != stress.size()) {
+    return "as many strains as stresses are wanted";
+  }
+  if (strain.front() != 0) {
+    return "the first plastic strain is not 0, where the material yields first";
+  }
+  if (std::adjacent_find(strain.begin(), strain.end(), [](double a, double b) { return b <= a; }) != strain.end()) {
+    return "the plastic strains do not rise";
+  }
+  const bool falls = std::adjacent_find(stress.begin(), stress.end(), [](double a, double b) { return b < a; }) != stress.end();
+  return falls ? "the stresses fall: softening gathers in one cell, whatever its size; a `failure` breaks what is strained" : nullptr;
+}
+
+TabulatedHardening read_tabulated(Deck& deck, const Section& in, const Material& m, bool fresh) {
+  TabulatedHardening s = fresh ? TabulatedHardening{} : std::get<TabulatedHardening>(m.strength);
+  const bool new_table = in.has("yield_strains") || in.has("yield_stresses");
+  bool complete = true;
+  if (fresh) {
+    complete = have(deck, in, {"shear_modulus", "yield_strains", "yield_stresses"}, "tabulated_hardening");
+  } else if (new_table) {
+    complete = have(deck, in, {"yield_strains", "yield_stresses"}, "a new table of tabulated_hardening");
+  }
+  set(s.shear_modulus, in, "shear_modulus");
+  s.rate = read_rate(deck, in, s.rate, "tabulated_hardening");
+  if (complete && new_table && in.has("yield_strains") && in.has("yield_stresses")) {
+    const std::vector<double> strain = in.numbers("yield_strains"), stress = in.numbers("yield_stresses");
+    if (const char* fault = table_fault(strain, stress)) {
+      deck.fail(*in.node("yield_strains"), fault, "strains from 0 on, stresses that do not fall");
+      return s;
+    }
+    s.points = static_cast<int>(strain.size());
+    std::copy(strain.begin(), strain.end(), s.strain.begin());
+    std::copy(stress.begin(), stress.end(), s.stress.begin());
+  }
+  return s;
+}
+
 } // namespace
 
 void read_strength(Deck& deck, const Section& in, Material& m, double temperature) {
@@ -117,7 +180,9 @@ void read_strength(Deck& deck, const Section& in, Material& m, double temperatur
   case 1: m.strength = read_linear(deck, in, m, fresh); break;
   case 2: m.strength = read_johnson_cook(deck, in, m, fresh, temperature); break;
   case 3: m.strength = read_steinberg(deck, in, m, fresh, temperature); break;
-  default: m.strength = read_viscoelastic(deck, in, m, model - 4, fresh); break;
+  case 4: m.strength = read_power_law(deck, in, m, fresh); break;
+  case 5: m.strength = read_tabulated(deck, in, m, fresh); break;
+  default: m.strength = read_viscoelastic(deck, in, m, model - 6, fresh); break;
   }
 }
 

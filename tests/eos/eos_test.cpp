@@ -39,6 +39,9 @@ std::vector<Sample> samples() {
   for (const double rho : {900.0, 1000.0, 1200.0}) {
     s.push_back({LinearBulk{1000, 2.2e9, 0.4, 1e5}, rho, 1e4});
   }
+  for (const double rho : {20.0, 190.0, 201.0, 600.0, 1000.0, 1300.0}) {
+    s.push_back({Bubbly{.rho0 = 200, .gas_fraction = 0.81, .skeleton_modulus = 9e3}, rho, 0});
+  }
   return s;
 }
 

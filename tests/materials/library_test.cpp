@@ -43,5 +43,44 @@ TEST(Library, SoundSpeedsAreMeasuredOnes) {
   EXPECT_NEAR(c("air"), 343.8, 1); // sqrt(1.4 * 101325 / 1.2)
 }
 
+// Longitudinal waves at rest, c^2 = K/rho + 4/3 G/rho with the G of sudden strain: of bones the P modulus.
+TEST(Library, LongitudinalWavesRunAtTheListedSpeeds) {
+  const struct {
+    const char* name;
+    double speed; // m/s, docs/materials.md
+  } listed[] = {{"skin", 1655},
+                {"fat", 1462},
+                {"muscle", 1562},
+                {"intercostal_muscle", 1562},
+                {"liver", 1540},
+                {"heart", 1586},
+                {"blood", 1570},
+                {"abdomen", 1550},
+                {"brain", 1550},
+                {"lung", 30},
+                {"costal_cartilage", 1665},
+                {"cortical_bone", 3194},
+                {"trabecular_bone", 2325},
+                {"gelatin_10", 1520},
+                {"gelatin_10_visco", 1520},
+                {"gelatin_20", 1550},
+                {"plastilina", 1500},
+                {"water", 1480}};
+  for (const auto& [name, speed] : listed) {
+    const Material* m = find_material(name);
+    ASSERT_NE(m, nullptr) << name;
+    const double bulk = sound_speed_squared(m->eos, m->density, m->specific_energy), shear = shear_modulus(m->strength) / m->density;
+    EXPECT_NEAR(std::sqrt(bulk + 4.0 / 3 * shear) / speed, 1, 0.02) << name;
+  }
+}
+
+// The card of Zochowski 2019 and what follows from it.
+TEST(Library, ClayYieldsAsItsCardSays) {
+  const auto& clay = std::get<PowerLawPlastic>(find_material("plastilina")->strength);
+  EXPECT_NEAR(2 * clay.shear_modulus * 1.49, 14.2e6, 1);
+  EXPECT_NEAR(flow_stress(clay, {1, 0, 0}, 0), 0.24e6, 0.001e6); // K at a strain near 1
+  EXPECT_NEAR(flow_stress(clay, {0, 0, 0}, 0), 14.2e6 * clay.first_strain, 1); // begins on Hooke's line
+}
+
 } // namespace
 } // namespace ballast

@@ -54,6 +54,52 @@ TEST(MaterialModels, LinearBulkRestsUnderTheAmbientPressure) {
   EXPECT_EQ(scene.blocks[0].pressure.row(scene.blocks[0].grid.cell_row(1, 0))[1], 0); // gauge, bitwise
 }
 
+TEST(MaterialModels, LungRestsUnderTheAmbientPressureWithItsGasAtOneAtmosphere) {
+  for (const char* ambient : {"0 Pa", "1 atm"}) {
+    const SceneSpec s = scene_with("foamy", "eos = \"bubbly\"\ndensity = 200\ngas_fraction = 0.8\nc0 = 1540\ngamma = 1.2\nskeleton_modulus = \"9 kPa\"", ambient);
+    const auto& m = std::get<Bubbly>(s.materials[0].eos);
+    EXPECT_EQ(m.gas_fraction, 0.8);
+    EXPECT_EQ(m.gamma, 1.2);
+    EXPECT_EQ(m.skeleton_modulus, 9e3);
+    EXPECT_EQ(m.gas_pressure, 101325);
+    EXPECT_EQ(m.rho0, 200);
+    const Scene<2> scene = build_scene<2>(s, 1);
+    EXPECT_EQ(scene.blocks[0].pressure.row(scene.blocks[0].grid.cell_row(1, 0))[1], 0); // gauge, bitwise
+  }
+  EXPECT_EQ(std::get<Bubbly>(scene_with("lung", "density = 300\ngas_fraction = 0.7").materials[0].eos).rho0, 300);
+}
+
+TEST(MaterialModels, FoamArrivesAsWrittenAndRestsUnderTheAmbientPressure) {
+  const SceneSpec s = scene_with("pad", "eos = \"p_alpha\"\ndensity = 100\nsolid_density = 1000\nbulk_modulus = \"2 GPa\"\nfoam_modulus = \"1 MPa\"\ncrush_pressure = \"0.1 MPa\"\nsolid_pressure = \"10 MPa\"");
+  const auto& m = std::get<PAlpha>(s.materials[0].eos);
+  EXPECT_EQ(m.rho0, 100);
+  EXPECT_EQ(m.solid_density, 1000);
+  EXPECT_EQ(m.K, 2e9);
+  EXPECT_EQ(m.foam_modulus, 1e6);
+  EXPECT_EQ(m.crush_pressure, 1e5);
+  EXPECT_EQ(m.solid_pressure, 1e7);
+  const Scene<2> scene = build_scene<2>(s, 1);
+  EXPECT_EQ(scene.blocks[0].pressure.row(scene.blocks[0].grid.cell_row(1, 0))[1], 0); // gauge, bitwise
+}
+
+TEST(MaterialModels, RateHardeningArrivesAsWritten) {
+  const auto clay = std::get<PowerLawPlastic>(
+      scene_with("muscle", "strength = \"power_law_plastic\"\nshear_modulus = \"4.8 MPa\"\nflow_coefficient = \"0.24 MPa\"\nflow_strain = 0.016\nn = 0.014\nrate_constant = \"40 1/s\"\nrate_exponent = 5")
+          .materials[0].strength);
+  EXPECT_EQ(clay.shear_modulus, 4.8e6);
+  EXPECT_EQ(clay.coefficient, 0.24e6);
+  EXPECT_EQ(clay.first_strain, 0.016);
+  EXPECT_EQ(clay.exponent, 0.014);
+  EXPECT_EQ(clay.rate.constant, 40);
+  EXPECT_EQ(clay.rate.exponent, 5);
+  const auto bone = std::get<TabulatedHardening>(scene_with("cortical_bone", "yield_strains = [0, 0.2]\nyield_stresses = [\"90 MPa\", \"95 MPa\"]").materials[0].strength);
+  EXPECT_EQ(bone.points, 2);
+  EXPECT_EQ(hardened(bone, 0.1), 92.5e6);
+  EXPECT_EQ(bone.rate.constant, 2500); // the library's
+  EXPECT_FALSE(has_rate(std::get<PowerLawPlastic>(scene_with("plastilina", "n = 0.02").materials[0].strength)));
+  EXPECT_NE(tissue_law(scene_with("plastilina", "strength = \"prony\"\nlong_shear = \"2 kPa\"\nbranch_shear = [\"1 kPa\"]\nbranch_time = [\"1 ms\"]").materials[0].strength), nullptr);
+}
+
 TEST(MaterialModels, SteinbergGuinanTakesTheMaterialsThermalNumbers) {
   const SceneSpec s = scene_with("lead_steinberg", "yield = \"10 MPa\"\ns3 = -1.5\nmelt_temperature = \"700 K\"\ndensity = 11000");
   const auto& m = std::get<SteinbergGuinan>(s.materials[0].strength);

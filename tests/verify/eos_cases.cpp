@@ -1,4 +1,4 @@
-// Equations of state beyond gases and linear Us-up: JWL, cubic Us-up, linear bulk.
+// Equations of state beyond gases and linear Us-up: JWL, cubic Us-up, linear bulk, bubbly lung, p-alpha foam.
 #include "tests/exact/cubic_impact.hpp"
 #include "tests/exact/jwl_riemann.hpp"
 #include "tests/verify/cases.hpp"
@@ -191,12 +191,97 @@ void linear_bulk_case(VerifyReport& r) {
   r.set_cells(200);
 }
 
+/// A wall moves into lung, gently and as hard as collapses its gas. Behind the front gas and tissue bear P: the law of eos/bubbly gives
+/// the density in closed form, and mass and momentum U^2 = p rho1/(rho0 (rho1 - rho0)), u = p/(rho0 U), p = P - P0. No energy: it is barotropic.
+void lung_case(VerifyReport& r) {
+  constexpr double rho0 = 200, gas = 1 - 200 / 1050.0, P0 = 101325, gamma = 1.2, K = 1050 * 1540.0 * 1540.0;
+  Material lung;
+  lung.name = "lung";
+  lung.eos = Bubbly{.rho0 = rho0, .gas_fraction = gas, .gas_pressure = P0, .gamma = gamma, .c0 = 1540, .p_rest = 0};
+  lung.density = rho0;
+  const double wood = std::sqrt(1 / (rho0 * (gas / (gamma * P0) + (1 - gas) / K)));
+  for (const double p : {1e-3 * P0, P0, 100 * P0}) {
+    const double rho1 = rho0 / (gas * std::pow(P0 / (P0 + p), 1 / gamma) + (1 - gas) * std::pow(1 + 7 * p / K, -1.0 / 7));
+    const double speed = std::sqrt(p * rho1 / (rho0 * (rho1 - rho0))), u = p / (rho0 * speed);
+    for (const MotionPolicy motion : {MotionPolicy::lagrangian, MotionPolicy::eulerian}) {
+      const bool moving = motion == MotionPolicy::lagrangian;
+      const double frame = moving ? 0 : -u;
+      Tube t;
+      t.cells = 200;
+      t.motion = motion;
+      t.materials = {lung, lung};
+      t.left = t.right = {0, rho0, frame, 0};
+      t.ends = {{{BoundaryKind::wall, moving ? u : 0}, {moving ? BoundaryKind::wall : BoundaryKind::inflow, moving ? 0 : -u}}};
+      // In the frame of the Eulerian mesh a front that squeezes hard hardly leaves the wall.
+      const double reach = 0.9 / speed * (speed + frame), place = reach * 0.8 / 0.9;
+      t.end_time = 0.9 / speed;
+      Arrival near(pressure_of, 0.5 * p, 0.4 * place), far(pressure_of, 0.5 * p, place); // the front takes a cell's time to form
+      const TubeRun<2> run = run_watched(t, {&near, &far});
+      const auto cells = profile(run.scene.blocks[0], 0);
+      const double wall = moving ? u * t.end_time : 0;
+      const std::string name = fmt::format("{} {:g} kPa", short_name(motion), p / 1000);
+      r.close(name + ", wave speed", speed + frame, 0.02, 0.6 * place / (far.time() - near.time()));
+      r.close(name + ", p", p, 0.02, middle(cells, pressure_of, wall, reach));
+      r.close(name + ", rho", rho1, 0.02, middle(cells, density_of, wall, reach));
+      r.close(name + ", u", u, 0.02, middle(cells, velocity_of, wall, reach) - frame);
+      conserves(r, name, run);
+    }
+  }
+  r.note("Wood's speed, m/s", wood);
+  r.set_cells(200);
+}
+
+/// A wall drives foam past crushing: an elastic wave to the crush pressure, then a shock, both by mass and momentum alone
+/// (it is barotropic). Herrmann's curve gives the density behind the shock in closed form.
+void foam_case(VerifyReport& r) {
+  constexpr double rho0 = 100, solid = 1000, K = 2e9, soft = 20e6, pe = 1e5, ps = 1e7, p = 1e6;
+  Material foam;
+  foam.name = "foam";
+  foam.eos = PAlpha{.rho0 = rho0, .solid_density = solid, .K = K, .foam_modulus = soft, .crush_pressure = pe, .solid_pressure = ps};
+  foam.density = rho0;
+  const double rho_e = rho0 * (1 + pe / soft), alpha_e = 1 / (rho_e / solid - pe / K), x = (ps - p) / (ps - pe);
+  const double rho1 = solid * (1 / (1 + (alpha_e - 1) * x * x) + p / K);
+  const double flux_e = std::sqrt(pe / (1 / rho0 - 1 / rho_e)), flux = std::sqrt((p - pe) / (1 / rho_e - 1 / rho1));
+  const double precursor = flux_e / rho0, u_e = pe / flux_e, u = u_e + (p - pe) / flux, shock = u_e + flux / rho_e;
+  for (const MotionPolicy motion : {MotionPolicy::lagrangian, MotionPolicy::eulerian}) {
+    const bool moving = motion == MotionPolicy::lagrangian;
+    const double frame = moving ? 0 : -u;
+    Tube t;
+    t.cells = 400;
+    t.motion = motion;
+    t.materials = {foam, foam};
+    t.left = t.right = {0, rho0, frame, 0};
+    t.ends = {{{BoundaryKind::wall, moving ? u : 0}, {moving ? BoundaryKind::wall : BoundaryKind::inflow, moving ? 0 : -u}}};
+    t.end_time = 0.9 / precursor;
+    const double place = 0.9 * (shock + frame) * t.end_time;
+    Arrival first(pressure_of, 0.5 * pe, 0.8), second(pressure_of, 0.5 * (p + pe), place);
+    const TubeRun<2> run = run_watched(t, {&first, &second});
+    const auto cells = profile(run.scene.blocks[0], 0);
+    const double wall = moving ? u * t.end_time : 0, front = (shock + frame) * t.end_time, far = (precursor + frame) * t.end_time;
+    const std::string name = short_name(motion);
+    r.close(name + ", elastic wave speed", precursor + frame, 0.02, 0.8 / first.time());
+    r.close(name + ", crushing wave speed", shock + frame, 0.02, place / second.time());
+    r.close(name + ", elastic p", pe, 0.02, middle(cells, pressure_of, front, far));
+    r.close(name + ", crushed p", p, 0.02, middle(cells, pressure_of, wall, front));
+    r.close(name + ", crushed rho", rho1, 0.02, middle(cells, density_of, wall, front));
+    r.close(name + ", crushed u", u, 0.02, middle(cells, velocity_of, wall, front) - frame);
+    const Block<2>& b = run.scene.blocks[0];
+    const MaterialSlot& slot = b.materials[0];
+    const int row = b.grid.cell_row(0, 0), station = static_cast<int>(0.25 * t.cells * (moving ? shock * t.end_time : front));
+    r.close(name + ", compaction", 1 - rho0 / rho1, 0.02, slot.store.row(slot.compaction_field(), row)[station]);
+    conserves(r, name, run);
+  }
+  r.set_cells(400);
+}
+
 } // namespace
 
 void add_eos_cases(std::vector<VerifyCase>& cases) {
   cases.push_back({"jwl", "JWL Riemann problem (Lee's products) against its exact solution", jwl_case});
   cases.push_back({"plates_cubic", "copper on lead by cubic Us-up at 2000 m/s by impedance matching", cubic_case});
   cases.push_back({"linear_bulk", "waves in a linear bulk liquid: speed and amplitude, small and large", linear_bulk_case});
+  cases.push_back({"lung", "a wall moves into bubbly lung: Wood's speed, and shocks that press its gas out", lung_case});
+  cases.push_back({"foam", "a wall drives p-alpha foam: elastic wave and crushing shock", foam_case});
 }
 
 } // namespace ballast::verify
