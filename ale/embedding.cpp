@@ -153,7 +153,7 @@ Levels<Dim> find_levels(const Grid& g, const std::array<RowField, Dim>& position
       return foot_of(body, x, within, f, side, starts[body][static_cast<std::size_t>(1 + side)]);
     };
     if (beside.size() > 1) {
-      const double seen = seen_slit * slit_width<Dim>(box, beside.front().foot.normal);
+      const auto seen = [&](const std::array<double, Dim>& normal) { return seen_slit * slit_width<Dim>(box, normal); };
       const JoinedFeet<Dim> joined = join_feet<Dim>(x, beside, seen, [&](int stack, int side, BodyFoot<Dim>& f) { return foot_on(stack, reach, side, f); });
       if (joined.closed) {
         level = joined.inside ? -reach : reach;
@@ -223,8 +223,8 @@ template <int Dim> int open_side(const Grid& g, const Levels<Dim>& levels, std::
     if (at < 0 || !(levels.level.row(r)[n[0]] > 0)) {
       continue;
     }
-    const int here = levels.feet[static_cast<std::size_t>(at)].foot.side;
-    if (here > 1 || (side >= 0 && here != side)) {
+    const int here = faced_side(levels.feet[static_cast<std::size_t>(at)]);
+    if (here < 0 || (side >= 0 && here != side)) {
       return -1;
     }
     side = here;

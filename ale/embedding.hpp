@@ -137,17 +137,21 @@ Levels<Dim> find_levels(const Grid& grid, const std::array<RowField, Dim>& posit
 /// The bodies as the stacks stand.
 template <int Dim> std::vector<LayerBody<Dim>> bodies_of(const Scene<Dim>& scene, const Embedding<Dim>& e);
 
-/// The foot that counts for a node beside what is open on `side` (0, 1; else the nearest): where in `feet`, or -1.
+/// What lies below all stacks is side 0, between the first two side 1, ...: the side that a foot faces. -1: a rim.
+template <int Dim> int faced_side(const NodeFoot<Dim>& f) { return f.foot.side > 1 ? -1 : f.stack + f.foot.side; }
+
+/// The foot that counts for a node beside what is open on `side` (below none: the nearest): where in `feet`, or -1.
 template <int Dim> int foot_on(const Levels<Dim>& levels, std::size_t node, int side) {
   const int at = levels.foot_of[node];
   if (at < 0 || side < 0) {
     return at;
   }
   const NodeFoot<Dim>& f = levels.feet[static_cast<std::size_t>(at)];
-  return f.other >= 0 && f.foot.side == 1 - side ? f.other : at;
+  const int wrong = side > f.stack ? 0 : 1; // face of its stack, that faces away
+  return f.other >= 0 && f.foot.side == wrong ? f.other : at;
 }
 
-/// Side of the body on which the open ones of some nodes lie; -1: both, a rim, or none near.
+/// Side on which the open ones of some nodes lie (faced_side); -1: several, a rim, or none near.
 template <int Dim> int open_side(const Grid& grid, const Levels<Dim>& levels, std::span<const std::array<int, 3>> nodes);
 
 /// Level of a node for what is open on `side`.

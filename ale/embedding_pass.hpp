@@ -116,7 +116,7 @@ private:
     return face_opening<Dim>(g_, levels_[config.at], static_cast<int>(axis), above);
   }
 
-  /// Side of the body (0, 1) that a cell is open to, or was last; -1: both, or none known.
+  /// The side (faced_side) that a cell is open to, or was last; -1: several, or none known.
   int find_side(const std::array<int, 3>& c) const;
 
   /// Opening of a face of cell c, nothing if by now it opens to the body's other side.

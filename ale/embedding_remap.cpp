@@ -171,8 +171,8 @@ template <int Dim> int EmbeddedRemap<Dim>::find_side(const std::array<int, 3>& c
   int side = -1; // buried: the faces it is nearest to
   for (const std::array<int, 3>& n : nodes) {
     const int foot = levels_[target_.at].foot_of[node_at(g_, g_.node_row(n[1], n[2]), n[0])];
-    const int here = foot < 0 ? 2 : levels_[target_.at].feet[static_cast<std::size_t>(foot)].foot.side;
-    if (here > 1 || (side >= 0 && side != here)) {
+    const int here = foot < 0 ? -1 : faced_side(levels_[target_.at].feet[static_cast<std::size_t>(foot)]);
+    if (here < 0 || (side >= 0 && side != here)) {
       return -1;
     }
     side = here;

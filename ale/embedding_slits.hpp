@@ -37,15 +37,16 @@ template <int Dim> bool slit_is_closed(const std::array<double, Dim>& x, const B
   return gap <= seen && along <= 0.25 * seen * seen; // else one lies beyond the other's end
 }
 
-/// `near`: stacks within reach with the point's nearest foot on each, from the lowest. foot_on(stack, side, foot): the foot on a side, if there is one.
-template <int Dim, class FootOn> JoinedFeet<Dim> join_feet(const std::array<double, Dim>& x, const std::vector<StackFoot<Dim>>& near, double seen, FootOn&& foot_on) {
+/// `near`: stacks within reach with the point's nearest foot on each, from the lowest. seen(normal), m: a slit across it that is wider is
+/// open. foot_on(stack, side, foot): the foot on a side, if there is one.
+template <int Dim, class Seen, class FootOn> JoinedFeet<Dim> join_feet(const std::array<double, Dim>& x, const std::vector<StackFoot<Dim>>& near, const Seen& seen, FootOn&& foot_on) {
   JoinedFeet<Dim> out;
   std::vector<std::array<bool, 2>> hidden(near.size(), {false, false}); // lower and upper faces
   for (std::size_t a = 0; a < near.size(); ++a) {
     out.inside = out.inside || !(near[a].foot.level > 0);
     for (std::size_t b = a + 1; b < near.size(); ++b) {
       BodyFoot<Dim> lower, upper;
-      if (foot_on(near[a].stack, 1, lower) && foot_on(near[b].stack, 0, upper) && slit_is_closed<Dim>(x, lower, upper, seen)) {
+      if (foot_on(near[a].stack, 1, lower) && foot_on(near[b].stack, 0, upper) && slit_is_closed<Dim>(x, lower, upper, seen(lower.normal))) {
         hidden[a][1] = hidden[b][0] = out.closed = true;
         out.inside = out.inside || (lower.level > 0 && upper.level > 0);
       }

@@ -92,14 +92,29 @@ template <int Dim> void touch_blocks(Layers<Dim>& l, std::vector<std::vector<Blo
   }
 }
 
-template <int Dim> ContactState<Dim>& state_of(Layers<Dim>& l, int other, int layer, int other_layer) {
+constexpr double free_rim = 0.1; ///< ContactSurface::rim where edges do not lie over each other
+
+/// Of a layer at rest, m.
+template <int Dim> double thickness_of(const LayerStack<Dim>& s) { return (s.levels.back() - s.levels.front()) / s.grid.layers; }
+
+/// Null: these two have not been near each other yet.
+template <int Dim> ContactState<Dim>* state_of(Layers<Dim>& l, int other, int layer, int other_layer) {
   for (StackContact<Dim>& c : l.with_stacks) {
     if (c.other == other && c.layer == layer && c.other_layer == other_layer) {
-      return c.state;
+      return &c.state;
     }
   }
-  l.with_stacks.push_back({other, layer, other_layer, {}});
-  return l.with_stacks.back().state;
+  return nullptr;
+}
+
+/// Is all of a layer farther from all of another, above it, than a substep's way?
+template <int Dim> bool are_apart(const LayerStack<Dim>& lower, int layer, const LayerStack<Dim>& upper, int other_layer) {
+  const auto end = [](const LayerStack<Dim>& s, int q, bool high) {
+    const int plane = q * (s.grid.through + 1) + (high ? s.grid.through : 0);
+    const auto first = s.position[Dim - 1].begin() + static_cast<std::ptrdiff_t>(s.node(0, 0, plane)), last = first + static_cast<std::ptrdiff_t>(s.node(0, 0, 1));
+    return high ? *std::max_element(first, last) : *std::min_element(first, last);
+  };
+  return end(upper, other_layer, false) - end(lower, layer, true) > 0.5 * (thickness_of(lower) + thickness_of(upper));
 }
 
 /// The contact of two stacks, the second above the first: of the layers on either that a block between them would meet. The rougher one's friction.
@@ -108,15 +123,27 @@ template <int Dim> void touch_stacks(Layers<Dim>& l, Layers<Dim>& other, int num
   const std::vector<char> mine = exposed(l.stack, false), its = exposed(other.stack, true);
   ContactSettings settings = l.contact;
   settings.friction = std::max(l.contact.friction, other.contact.friction);
+  const bool flush = l.stack.lines[0].back() == other.stack.lines[0].back() && (Dim == 2 || l.stack.lines[1].back() == other.stack.lines[1].back());
   for (std::size_t a = 0; a < mine.size(); ++a) {
     for (std::size_t b = 0; b < its.size(); ++b) {
-      if (mine[a] == 0 || its[b] == 0) {
+      const int layer = static_cast<int>(a), other_layer = static_cast<int>(b);
+      if (mine[a] == 0 || its[b] == 0 || (state_of(l, number, layer, other_layer) == nullptr && are_apart(l.stack, layer, other.stack, other_layer))) {
         continue;
       }
-      const int layer = static_cast<int>(a), other_layer = static_cast<int>(b);
       ContactSurface<Dim> first = layer_surface(l.stack, l.stack.velocity, layer, true, l.slidelines.held, &l.load);
       ContactSurface<Dim> second = layer_surface(other.stack, other.stack.velocity, other_layer, false, other.slidelines.held, &other.load);
-      book(l.ledger, resolve_contact(first, second, h, settings, state_of(l, number, layer, other_layer), &pool));
+      if (!flush) { // the edge of one lies somewhere on the other
+        first.rim = second.rim = free_rim;
+      }
+      ContactState<Dim>* state = state_of(l, number, layer, other_layer);
+      if (state == nullptr) {
+        l.with_stacks.push_back({number, layer, other_layer, {}});
+        state = &l.with_stacks.back().state;
+      }
+      const ContactReport report = resolve_contact(first, second, h, settings, *state, &pool);
+      book(l.ledger, report);
+      const double thinner = std::min(thickness_of(l.stack), thickness_of(other.stack));
+      l.closing = std::max(l.closing, report.closing / thinner);
     }
   }
 }

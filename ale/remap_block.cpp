@@ -1,4 +1,5 @@
 // Remap of a block: remap/ moves the conserved quantities, this brings the materials back to a state.
+#include "ale/embedding_debris.hpp"
 #include "ale/embedding_remap.hpp"
 #include "ale/outflow.hpp"
 #include "ale/phases.hpp"
@@ -252,6 +253,9 @@ template <int Dim> void remap_block(Scene<Dim>& scene, Block<Dim>& b, long step)
   }
   if (b.void_index() >= 0) {
     rest_massless_nodes(b, *scene.pool);
+  }
+  if (embedded != nullptr) {
+    shed_debris(scene, *embedded, b);
   }
   hold_outflow(b, leaving, scene.ledger);
   hold_still(b, *scene.pool, scene.ledger);

@@ -1,5 +1,8 @@
 #include "core/threads.hpp"
 
+#include <algorithm>
+#include <chrono>
+
 #if __has_include(<malloc.h>)
 #include <malloc.h>
 #endif
@@ -17,16 +20,25 @@ void keep_freed_memory() {
 namespace {
 
 /// A step's phases follow within microseconds and to wake a sleeping thread takes tens of them: a waiting thread looks again and
-/// again, then lets others have the core in between, and sleeps when nothing came for as long as phases may take.
-constexpr int looks = 4000, yields = 1000;
+/// again, then lets others have the core in between, and sleeps when nothing came for as long as phases may take. Where others want
+/// the core a yield costs a whole slice of theirs, milliseconds, while a sleeper that is woken has it at once: there it sleeps.
+constexpr int looks = 4000, yields = 1000, calm_again = 1000; ///< the last: waits
+constexpr std::chrono::microseconds long_yield{100};
 
 void await_change(const std::atomic<int>& value, int old) {
-  for (int look = 0; look < looks + yields; ++look) {
+  thread_local int crowded = 0; // waits in which not to yield
+  crowded = std::max(0, crowded - 1);
+  for (int look = 0; look < looks + (crowded > 0 ? 0 : yields); ++look) {
     if (value.load(std::memory_order_acquire) != old) {
       return;
     }
     if (look >= looks) {
+      const auto start = std::chrono::steady_clock::now();
       std::this_thread::yield();
+      if (std::chrono::steady_clock::now() - start > long_yield) {
+        crowded = calm_again;
+        break;
+      }
     }
   }
   value.wait(old, std::memory_order_acquire);

@@ -281,6 +281,11 @@ template <int Dim> Scene<Dim> build_scene(const SceneSpec& spec, int threads) {
   scene.blocks.push_back(std::move(b));
   for (const LayersSpec& layers : spec.layers) {
     scene.layers.push_back(build_layers<Dim>(layers, spec.geometry));
+    if (layers.debris >= 0) {
+      Layers<Dim>& l = scene.layers.back();
+      l.debris = slots.slot[static_cast<std::size_t>(layers.debris)];
+      l.whole_mass = l.stack.mass;
+    }
   }
   if (!spec.layers.empty() && embeds_layers(spec.motion)) {
     scene.embedded.push_back(std::make_shared<Embedding<Dim>>());

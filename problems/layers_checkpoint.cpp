@@ -22,6 +22,7 @@ template <int Dim, class Stack, class Visit> void visit_stack(Stack& s, const st
       visit(base + fmt::format("rate_{}_{}", point, yarn), s.rate[point][yarn]);
     }
   }
+  visit(base + "mass", s.mass);
   visit(base + "energy", s.energy);
   visit(base + "hourglass_energy", s.hourglass_energy);
   visit(base + "shock_heat", s.shock_heat);

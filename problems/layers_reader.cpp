@@ -5,6 +5,7 @@
 #include "problems/scene_reading.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@ struct Context {
   Deck& deck;
   const FabricBook& book;
   SceneSpec& scene;
+  MaterialBook& materials;
   std::size_t dim() const { return static_cast<std::size_t>(dimensions(scene.geometry)); }
   std::size_t across() const { return dim() - 1; } ///< axes in the plane of the layers; the last is the shot's
 };
@@ -287,11 +289,17 @@ bool check_count(Context c, const Section& in, const LayersSpec& out) {
   return elements <= most_cells;
 }
 
+/// Only letters and digits tell names apart.
+std::string file_name(std::string name) {
+  std::replace_if(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
 /// Stacks are told apart by name and lie one behind the other, with or without room between.
 void check_apart(Context c, const Section& in, const LayersSpec& out) {
   for (const LayersSpec& other : c.scene.layers) {
-    if (other.name == out.name) {
-      c.deck.fail(*in.node("name"), fmt::format("two stacks are called \"{}\"", out.name), "a name of its own for each");
+    if (file_name(other.name) == file_name(out.name)) { // in files and columns
+      c.deck.fail(*in.node("name"), fmt::format("two stacks are called \"{}\"{}", out.name, other.name == out.name ? "" : fmt::format(" and \"{}\": their files would be the same", other.name)), "a name of its own for each");
       return;
     }
     const double common = std::min(out.high(), other.high()) - std::max(out.low(), other.low());
@@ -300,6 +308,29 @@ void check_apart(Context c, const Section& in, const LayersSpec& out) {
       c.deck.fail(*in.node("front"), fmt::format("the stack, from {:g} to {:g} m, overlaps \"{}\", from {:g} to {:g} m", out.low(), out.high(), other.name, other.low(), other.high()),
                   fmt::format("front = {:g} m, where \"{}\" ends, or beyond", out.direction > 0 ? other.high() : other.low(), other.name));
       return;
+    }
+  }
+}
+
+/// What torn cloth becomes.
+void read_debris(Context c, const Section& in, LayersSpec& out) {
+  if (!in.has("debris")) {
+    return;
+  }
+  DeckNode& node = *in.node("debris");
+  if (!embeds_layers(c.scene.motion)) {
+    c.deck.fail_key(node, "only of a stack inside a mesh", "leave it out, or a motion whose mesh stays behind");
+  } else if (const std::optional<int> index = c.materials.index(c.deck, node.text, node)) {
+    out.debris = *index;
+    const auto& bodies = c.scene.bodies;
+    const auto same = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.material == *index; });
+    if (*index < 0) {
+      c.deck.fail_key(node, "void holds no mass", "a material, or leave it out");
+    } else if (same != bodies.end() || c.scene.background == *index) {
+      c.deck.fail_key(node, fmt::format("\"{}\" is what {} is of: its results would count torn cloth", node.text, same != bodies.end() ? fmt::format("body \"{}\"", same->name) : "the background"),
+                      "a material of its own: one of [materials] with it as `base`");
+    } else if (c.scene.motion.policy == MotionPolicy::relax) {
+      c.deck.fail_key(node, "only in a mesh of straight lines throughout", "leave it out, or motion.policy = \"eulerian\" or \"follow\"");
     }
   }
 }
@@ -322,6 +353,7 @@ void read_one(Context c, DeckNode& node) {
     read_methods(c, in, out);
   }
   read_edges(c, in, out);
+  read_debris(c, in, out);
   const bool flat = read_plane(c, in, out);
   if (!sound || !flat || !read_weight(c, in, *fabric, out)) {
     return;
@@ -338,10 +370,10 @@ void read_one(Context c, DeckNode& node) {
 
 } // namespace
 
-void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, SceneSpec& scene) {
+void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, MaterialBook& materials, SceneSpec& scene) {
   const FabricBook book(deck, fabrics);
   for (std::size_t i = 0; list != nullptr && i < list->items.size(); ++i) {
-    read_one({deck, book, scene}, list->items[i]);
+    read_one({deck, book, scene, materials}, list->items[i]);
   }
   std::stable_sort(scene.layers.begin(), scene.layers.end(), [](const LayersSpec& a, const LayersSpec& b) { return a.low() < b.low(); });
   if (!scene.layers.empty() && deck.clean() && embeds_layers(scene.motion) && scene.map.curved()) { // their room is found along straight lines

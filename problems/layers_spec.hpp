@@ -26,6 +26,7 @@ struct LayersSpec {
   LayerViscosity viscosity;
   double cfl = 0.7;
   int subcycles = 0;            ///< to one step of the mesh; 0: as many as the stack's stable step asks
+  int debris = -1;              ///< index into SceneSpec::materials: what torn cloth becomes; none: particles
   double rate_time = 1e-6;      ///< s, of fabrics with a rate factor
 
   double density() const { return ballast::density(model); }

@@ -32,9 +32,12 @@ template <int Dim> bool torn_through(const LayerStack<Dim>& s) {
 } // namespace
 
 /// kg now above and below that were not there at the start.
-template <int Dim> std::array<double, 2> LayersRecord<Dim>::passed(const Seen& seen, const std::vector<std::array<double, 2>>& now) {
+template <int Dim> std::array<double, 2> LayersRecord<Dim>::passed(const Scene<Dim>& scene, const Seen& seen, const std::vector<std::array<double, 2>>& now) {
   std::array<double, 2> sum = {0, 0};
   for (std::size_t m = 0; m < now.size() && m < seen.sides_start.size(); ++m) {
+    if (std::any_of(scene.layers.begin(), scene.layers.end(), [m](const Layers<Dim>& l) { return l.debris == static_cast<int>(m); })) {
+      continue; // was a layer
+    }
     sum[0] += std::max(0.0, now[m][1] - seen.sides_start[m][1]);
     sum[1] += std::max(0.0, now[m][0] - seen.sides_start[m][0]);
   }
@@ -86,7 +89,7 @@ template <int Dim> std::vector<double> LayersRecord<Dim>::add(const Scene<Dim>& 
     if (!scene.embedded.empty()) {
       const std::vector<std::array<double, 2>> sides = masses_by_side(scene, q);
       seen_[q].sides_start = seen_[q].sides_start.empty() ? sides : seen_[q].sides_start;
-      const std::array<double, 2> mass = passed(seen_[q], sides);
+      const std::array<double, 2> mass = passed(scene, seen_[q], sides);
       all.insert(all.end(), mass.begin(), mass.end());
       seen_[q].leak_while_whole = torn_through(l.stack) ? seen_[q].leak_while_whole : std::max(seen_[q].leak_while_whole, mass[0] + mass[1]);
     }
@@ -122,7 +125,7 @@ template <int Dim> nlohmann::ordered_json LayersRecord<Dim>::results(const Scene
     const LayerMeasure m = measure_layers(l.stack, spec_.layers[q].direction);
     const Seen& seen = seen_[q];
     nlohmann::ordered_json j;
-    j["mass_kg"] = {{"start", seen.mass_start}, {"end", m.totals.mass}, {"eroded", m.eroded_mass}};
+    j["mass_kg"] = {{"start", seen.mass_start}, {"end", m.totals.mass}, {"eroded", m.eroded_mass}, {"became_debris", seen.mass_start - m.totals.mass}};
     j["deflection_m"] = {{"last", m.centre}, {"last_anywhere", m.largest}, {"largest", std::max(seen.largest, m.largest)}};
     j["deflection_velocity_m_per_s"] = m.velocity;
     for (std::size_t axis = 0; axis < m.dome.size(); ++axis) {
@@ -144,7 +147,7 @@ template <int Dim> nlohmann::ordered_json LayersRecord<Dim>::results(const Scene
                      {"from_the_mesh_around", ledger.load_work},
                      {"eroded", ledger.eroded_energy}};
     if (!scene.embedded.empty()) {
-      const std::array<double, 2> mass = passed(seen, masses_by_side(scene, q));
+      const std::array<double, 2> mass = passed(scene, seen, masses_by_side(scene, q));
       j["passed_kg"] = {{"up", mass[0]}, {"down", mass[1]}, {"largest_while_whole", seen.leak_while_whole}};
     }
     j["penetration_deepest_m"] = ledger.deepest;

@@ -52,7 +52,7 @@ private:
     double leak_while_whole = 0;
     std::vector<std::array<double, 2>> sides_start = {};
   };
-  static std::array<double, 2> passed(const Seen& seen, const std::vector<std::array<double, 2>>& now);
+  static std::array<double, 2> passed(const Scene<Dim>& scene, const Seen& seen, const std::vector<std::array<double, 2>>& now);
   const SceneSpec& spec_;
   std::vector<Seen> seen_;
 };

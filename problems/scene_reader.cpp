@@ -301,9 +301,6 @@ SceneSpec read_scene(Deck& deck) {
     read_bodies(deck, top.node("body"), book, scene);
     read_background(deck, top, book, scene);
     scene.materials = book.used();
-    if (DeckNode* ambient = usable(root, "ambient")) {
-      check_melting(deck, *ambient, scene);
-    }
     if (DeckNode* motion = usable(root, "motion")) {
       read_follow(deck, *motion, scene);
     }
@@ -311,7 +308,11 @@ SceneSpec read_scene(Deck& deck) {
     if (DeckNode* results = top.node("results")) {
       read_results(deck, *results, scene);
     }
-    read_layers(deck, top.node("layers"), top.node("fabrics"), scene);
+    read_layers(deck, top.node("layers"), top.node("fabrics"), book, scene);
+    scene.materials = book.used();
+    if (DeckNode* ambient = usable(root, "ambient")) {
+      check_melting(deck, *ambient, scene);
+    }
     if (DeckNode* injury = top.node("injury")) {
       read_injury(deck, *injury, scene);
     }

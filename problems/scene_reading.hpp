@@ -106,7 +106,7 @@ void read_motion(Deck& deck, DeckNode& node, Motion& motion);
 void read_follow(Deck& deck, DeckNode& node, SceneSpec& scene);
 
 /// All [[layers]], after bodies and results: they lie behind their front as the shot goes. `fabrics`: [fabrics], or null.
-void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, SceneSpec& scene);
+void read_layers(Deck& deck, DeckNode* list, DeckNode* fabrics, MaterialBook& materials, SceneSpec& scene);
 
 /// [mesh] with lines and boundaries.
 void read_mesh(Deck& deck,

@@ -28,6 +28,8 @@ template <int Dim> struct Layers {
   std::vector<char> above; ///< by block: does the stack lie above it, along the last axis, at the start?
   std::vector<ContactState<Dim>> with_blocks; ///< by block, side and layer, as ale/layer_coupling counts them
   std::vector<StackContact<Dim>> with_stacks; ///< with those of a higher number
+  int debris = -1;                ///< material of the mesh around that torn cloth becomes (ale/embedding_debris), or none
+  std::vector<double> whole_mass; ///< kg: of its nodes at the start, if it does
   double closing = 0;   ///< largest approach in a substep by a layer's thickness
   long steps = 0;       ///< substeps so far
   double seconds = 0, contact_seconds = 0; ///< s of the clock on the wall, this run: steps of the layers without contact; contact

@@ -149,6 +149,28 @@ TEST(Stacks, ANarrowPlateBetweenTwoWideOnesDoesToo) {
   expect_conserved<2>(Geometry::axisymmetric, Way::embedded, three, 20);
 }
 
+/// Two plates of less than a cell with gas between, two cells where neither is padded, wherever they lie to the mesh's lines: it pushes each its own way
+/// by p A t.
+TEST(Stacks, GasInANarrowGapPushesThemApart) {
+  constexpr double p = 10e6, t = 0.2e-6, radius = 5e-3, gap = 1.1, area = 3.14159265358979 * radius * radius;
+  for (int offset = 0; offset < 5; ++offset) {
+    const double low = 0.1 * offset; // mm
+    const auto plate = [](const char* name, double front) {
+      return fmt::format("[[layers]]\nname = \"{}\"\nfabric = \"plate\"\nfront = \"{} mm\"\nlayers = 1\nthickness = \"0.4 mm\"\ndensity = \"1440 kg/m3\"\nhalf_width = \"20 mm\"\ncells = 40\n", name, front);
+    };
+    const std::string text = fmt::format("title = \"gap\"\ngeometry = \"axisymmetric\"\nend_time = \"0.2 us\"\nambient = {{ pressure = \"0 Pa\" }}\n[[body]]\nname = \"gas\"\nmaterial = \"air\"\npressure = \"10 MPa\"\n"
+                                         "density = \"100 kg/m3\"\nshape = {{ cylinder = {{ from = [0, \"{} mm\"], to = [0, \"{} mm\"], radius = \"5 mm\" }} }}\n[mesh]\n"
+                                         "r = {{ from = 0, to = \"5 mm\", cells = 10, upper = \"symmetry\" }}\nz = {{ from = \"-4 mm\", to = \"5 mm\", cells = 18 }}\n[motion]\npolicy = \"eulerian\"\n"
+                                         "[fabrics.plate]\nlaw = \"hooke\"\nyoung = \"70 GPa\"\npoisson = 0.3\n",
+                                         low, low + gap) +
+                             plate("lower", low - 0.4) + plate("upper", low + gap) + "[output]\nfields_every = \"1 us\"\n";
+    const nlohmann::json j = run<2>(text).summary;
+    const auto momentum = [&](const char* name) { return j["results"]["layers"][name]["momentum_kg_m_per_s"]["end"][1].get<double>(); };
+    EXPECT_NEAR(momentum("upper"), p * area * t, 0.2 * p * area * t) << low;
+    EXPECT_NEAR(momentum("lower"), -p * area * t, 0.2 * p * area * t) << low;
+  }
+}
+
 template <int Dim> std::vector<double> state_of(const Scene<Dim>& scene) {
   std::vector<double> out;
   const auto add = [&](const std::vector<double>& values) { out.insert(out.end(), values.begin(), values.end()); };
@@ -186,6 +208,7 @@ TEST(Stacks, ThatOverlapOrShareANameAreRefused) {
   };
   EXPECT_NE(errors({{"front", 0, 2}, {"back", 1.5, 2}}).find("overlaps \"front\""), std::string::npos);
   EXPECT_NE(errors({{"front", 0, 2}, {"front", 3, 2}}).find("two stacks are called \"front\""), std::string::npos);
+  EXPECT_NE(errors({{"front plate", 0, 2}, {"front_plate", 3, 2}}).find("their files would be the same"), std::string::npos);
   EXPECT_EQ(errors(halves), "0 errors in test.toml\n");
 }
 
