@@ -1,131 +1,30 @@
 // NRRD files: a text header, then the values, raw, as text or compressed by gzip; or those in a file of their own.
 //
-// Read here and not by VTK, whose reader (9.1) takes a first axis of nine voxels or fewer for the parts of a vector, reads
-// only the first slice of what is compressed, and text from the top of the header.
-#include "core/io/oriented_image.hpp"
+// Read here and not by VTK, whose reader (9.1) takes a first axis of nine voxels or fewer for the parts of a vector.
+#include "core/io/image_values.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <unistd.h>
-#include <zlib.h>
 
 namespace ballast::io {
 namespace {
 
-enum class Type { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
-
-std::optional<Type> type_named(const std::string& name) {
-  static const std::map<std::string, Type> names = {
-      {"signed char", Type::i8}, {"int8", Type::i8}, {"int8_t", Type::i8},
-      {"uchar", Type::u8}, {"unsigned char", Type::u8}, {"uint8", Type::u8}, {"uint8_t", Type::u8},
-      {"short", Type::i16}, {"short int", Type::i16}, {"signed short", Type::i16}, {"signed short int", Type::i16}, {"int16", Type::i16}, {"int16_t", Type::i16},
-      {"ushort", Type::u16}, {"unsigned short", Type::u16}, {"unsigned short int", Type::u16}, {"uint16", Type::u16}, {"uint16_t", Type::u16},
-      {"int", Type::i32}, {"signed int", Type::i32}, {"int32", Type::i32}, {"int32_t", Type::i32},
-      {"uint", Type::u32}, {"unsigned int", Type::u32}, {"uint32", Type::u32}, {"uint32_t", Type::u32},
-      {"longlong", Type::i64}, {"long long", Type::i64}, {"long long int", Type::i64}, {"signed long long", Type::i64}, {"signed long long int", Type::i64}, {"int64", Type::i64}, {"int64_t", Type::i64},
-      {"ulonglong", Type::u64}, {"unsigned long long", Type::u64}, {"unsigned long long int", Type::u64}, {"uint64", Type::u64}, {"uint64_t", Type::u64},
-      {"float", Type::f32}, {"double", Type::f64}};
+std::optional<NumberType> type_named(const std::string& name) {
+  static const std::map<std::string, NumberType> names = {
+      {"signed char", NumberType::i8}, {"int8", NumberType::i8}, {"int8_t", NumberType::i8},
+      {"uchar", NumberType::u8}, {"unsigned char", NumberType::u8}, {"uint8", NumberType::u8}, {"uint8_t", NumberType::u8},
+      {"short", NumberType::i16}, {"short int", NumberType::i16}, {"signed short", NumberType::i16}, {"signed short int", NumberType::i16}, {"int16", NumberType::i16}, {"int16_t", NumberType::i16},
+      {"ushort", NumberType::u16}, {"unsigned short", NumberType::u16}, {"unsigned short int", NumberType::u16}, {"uint16", NumberType::u16}, {"uint16_t", NumberType::u16},
+      {"int", NumberType::i32}, {"signed int", NumberType::i32}, {"int32", NumberType::i32}, {"int32_t", NumberType::i32},
+      {"uint", NumberType::u32}, {"unsigned int", NumberType::u32}, {"uint32", NumberType::u32}, {"uint32_t", NumberType::u32},
+      {"longlong", NumberType::i64}, {"long long", NumberType::i64}, {"long long int", NumberType::i64}, {"signed long long", NumberType::i64}, {"signed long long int", NumberType::i64}, {"int64", NumberType::i64}, {"int64_t", NumberType::i64},
+      {"ulonglong", NumberType::u64}, {"unsigned long long", NumberType::u64}, {"unsigned long long int", NumberType::u64}, {"uint64", NumberType::u64}, {"uint64_t", NumberType::u64},
+      {"float", NumberType::f32}, {"double", NumberType::f64}};
   const auto at = names.find(name);
   return at == names.end() ? std::nullopt : std::optional(at->second);
-}
-
-/// Where the values are.
-struct Source {
-  std::string path, encoding;
-  std::size_t skip = 0;   ///< bytes of the header before them
-  bool swapped = false;   ///< other end first than here
-};
-
-std::string read_raw(const Source& from, char* bytes, std::size_t count) {
-  std::ifstream in(from.path, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(from.skip));
-  in.read(bytes, static_cast<std::streamsize>(count));
-  const auto got = static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount()));
-  return got == count ? "" : fmt::format("{} has {} bytes of values, {} are needed", from.path, got, count);
-}
-
-std::string read_gzip(const Source& from, char* bytes, std::size_t count) {
-  const int file = ::open(from.path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0 || ::lseek(file, static_cast<off_t>(from.skip), SEEK_SET) < 0) {
-    return fmt::format("cannot open {}", from.path);
-  }
-  gzFile stream = gzdopen(file, "rb");
-  std::size_t got = 0;
-  while (got < count) {
-    const int more = gzread(stream, bytes + got, static_cast<unsigned>(std::min<std::size_t>(count - got, 1U << 30)));
-    if (more <= 0) {
-      break;
-    }
-    got += static_cast<std::size_t>(more);
-  }
-  gzclose(stream);
-  return got == count ? "" : fmt::format("{} has {} bytes of values once unpacked, {} are needed", from.path, got, count);
-}
-
-std::string read_text(const Source& from, std::vector<double>& values) {
-  std::ifstream in(from.path, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(from.skip));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!(in >> values[i])) {
-      return fmt::format("{} has {} values, {} are needed", from.path, i, values.size());
-    }
-  }
-  return "";
-}
-
-template <class T> void read_as(const Source& from, OrientedImage& image) {
-  const char* whole = "the whole file";
-  if (from.encoding != "raw" && from.encoding != "gzip" && from.encoding != "gz") {
-    std::vector<double> values(image.voxels());
-    image.problem = read_text(from, values);
-    image.cure = whole;
-    if (image.problem.empty()) {
-      take_labels(values.data(), image);
-    }
-    return;
-  }
-  std::vector<T> values(image.voxels());
-  char* bytes = reinterpret_cast<char*>(values.data());
-  const std::size_t count = values.size() * sizeof(T);
-  image.problem = from.encoding == "raw" ? read_raw(from, bytes, count) : read_gzip(from, bytes, count);
-  image.cure = whole;
-  if (!image.problem.empty()) {
-    return;
-  }
-  for (std::size_t i = 0; from.swapped && i < values.size(); ++i) {
-    std::reverse(bytes + i * sizeof(T), bytes + (i + 1) * sizeof(T));
-  }
-  take_labels(values.data(), image);
-}
-
-void read_values(Type type, const Source& from, OrientedImage& image) {
-  switch (type) {
-  case Type::i8:
-    return read_as<std::int8_t>(from, image);
-  case Type::u8:
-    return read_as<std::uint8_t>(from, image);
-  case Type::i16:
-    return read_as<std::int16_t>(from, image);
-  case Type::u16:
-    return read_as<std::uint16_t>(from, image);
-  case Type::i32:
-    return read_as<std::int32_t>(from, image);
-  case Type::u32:
-    return read_as<std::uint32_t>(from, image);
-  case Type::i64:
-    return read_as<std::int64_t>(from, image);
-  case Type::u64:
-    return read_as<std::uint64_t>(from, image);
-  case Type::f32:
-    return read_as<float>(from, image);
-  case Type::f64:
-    return read_as<double>(from, image);
-  }
 }
 
 /// Size, steps and first voxel.
@@ -147,7 +46,7 @@ void read_frame(const TextHeader& header, OrientedImage& image) {
     return;
   }
   for (std::size_t a = 0; a < 3; ++a) {
-    image.size[a] = static_cast<std::size_t>(std::max(0.0, sizes[a]));
+    image.size[a] = static_cast<std::size_t>(std::clamp(sizes[a], 0.0, 1e6));
     image.first[a] = origin.empty() ? 0.0 : origin[a];
     for (std::size_t k = 0; k < 3; ++k) {
       image.step[a][k] = along.size() == 9 ? along[3 * a + k] : (a == k ? spacings[a] : 0.0);
@@ -155,10 +54,16 @@ void read_frame(const TextHeader& header, OrientedImage& image) {
   }
 }
 
-Source find_values(const std::string& path, const TextHeader& header, OrientedImage& image) {
-  Source from{path, lower_case(header.text("encoding")), header.bytes, false};
-  const bool little = lower_case(header.text("endian")) != "big";
-  from.swapped = little != (std::endian::native == std::endian::little);
+ValueSource find_values(const std::string& path, const TextHeader& header, OrientedImage& image) {
+  const std::string encoding = lower_case(header.text("encoding"));
+  ValueSource from{path, header.bytes, ValueSource::Coding::raw, lower_case(header.text("endian")) == "big"};
+  if (encoding == "gzip" || encoding == "gz") {
+    from.coding = ValueSource::Coding::packed;
+  } else if (encoding == "text" || encoding == "txt" || encoding == "ascii") {
+    from.coding = ValueSource::Coding::text;
+  } else if (encoding != "raw") {
+    image.refuse(fmt::format("its encoding is \"{}\"", encoding), "raw, gzip or text");
+  }
   const std::string file = header.has("data file") ? header.text("data file") : header.text("datafile");
   if (!file.empty()) {
     from.path = (std::filesystem::path(path).parent_path() / file).string();
@@ -171,10 +76,6 @@ Source find_values(const std::string& path, const TextHeader& header, OrientedIm
     if (header.has(key) && header.text(key) != "0") {
       image.refuse(fmt::format("`{}: {}` is not read", key, header.text(key)), "a file without it");
     }
-  }
-  constexpr const char* known[] = {"raw", "gzip", "gz", "text", "txt", "ascii"};
-  if (std::none_of(std::begin(known), std::end(known), [&](const char* word) { return from.encoding == word; })) {
-    image.refuse(fmt::format("its encoding is \"{}\"", from.encoding), "raw, gzip or text");
   }
   return from;
 }
@@ -191,8 +92,8 @@ OrientedImage read_nrrd(const std::string& path) {
   }
   const TextHeader header = read_text_header(path, ':', "");
   read_frame(header, image);
-  const Source from = find_values(path, header, image);
-  const std::optional<Type> type = type_named(lower_case(header.text("type")));
+  const ValueSource from = find_values(path, header, image);
+  const std::optional<NumberType> type = type_named(lower_case(header.text("type")));
   if (!type) {
     image.refuse(fmt::format("its type is \"{}\"", header.text("type")), "whole numbers, one a voxel: uint8 or uint16");
   }

@@ -1,14 +1,12 @@
-// MetaImage and NIfTI files through VTK's readers.
+// NIfTI files through VTK's reader, which puts the slices of a left-handed image in the other order and says so in its matrix.
 #include "core/io/oriented_image.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <vtkCallbackCommand.h>
 #include <vtkDataArray.h>
 #include <vtkExecutive.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
-#include <vtkMetaImageReader.h>
 #include <vtkNIFTIImageReader.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -48,7 +46,7 @@ private:
 };
 
 /// Values of a reader that has its information; refuses more than one a voxel.
-void read_values(vtkImageReader2* reader, const Complaint& complaint, OrientedImage& image) {
+void take_values(vtkImageReader2* reader, const Complaint& complaint, OrientedImage& image) {
   if (complaint.text().empty() && image.problem.empty()) {
     reader->Update();
   }
@@ -85,36 +83,6 @@ double decimal(double value) {
 
 } // namespace
 
-OrientedImage read_meta_image(const std::string& path) {
-  OrientedImage image;
-  const TextHeader header = read_text_header(path, '=', "elementdatafile");
-  if (header.text("ndims") != "3") {
-    image.refuse(header.has("ndims") ? fmt::format("its NDims is {}", header.text("ndims")) : "it has no header of a MetaImage", "NDims = 3, DimSize, ElementSpacing ... ElementDataFile");
-    return image;
-  }
-  if (!header.has("elementspacing") && !header.has("elementsize")) {
-    image.refuse("its header does not say how large a voxel is", "ElementSpacing, three lengths");
-    return image;
-  }
-  vtkNew<vtkMetaImageReader> reader;
-  const Complaint complaint(reader);
-  reader->SetFileName(path.c_str());
-  reader->UpdateInformation();
-  std::vector<double> turn;
-  for (const char* key : {"transformmatrix", "rotation", "orientation"}) {
-    turn = turn.empty() ? numbers_in(header.text(key)) : turn;
-  }
-  for (std::size_t a = 0; a < 3; ++a) {
-    image.first[a] = reader->GetDataOrigin()[a];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double along = turn.size() == 9 ? turn[3 * a + k] : (a == k ? 1.0 : 0.0);
-      image.step[a][k] = along * reader->GetDataSpacing()[a];
-    }
-  }
-  read_values(reader, complaint, image);
-  return image;
-}
-
 OrientedImage read_nifti(const std::string& path) {
   OrientedImage image;
   vtkNew<vtkNIFTIImageReader> reader;
@@ -139,7 +107,7 @@ OrientedImage read_nifti(const std::string& path) {
       image.step[at][static_cast<std::size_t>(k)] = decimal(place->GetElement(k, a) * reader->GetDataSpacing()[a]);
     }
   }
-  read_values(reader, complaint, image);
+  take_values(reader, complaint, image);
   return image;
 }
 
