@@ -85,6 +85,23 @@ TEST(Voxels, CellsTakeExactlyTheVolumeTheyShare) {
   });
 }
 
+/// More voxels in a cell than lines would be cast through it.
+TEST(Voxels, FineVoxelsAreExactInCoarseCells) {
+  TestImage image{{30, 31, 32}, {0.11, 0.12, 0.13}, {0.3, -0.4, 0}, {}};
+  std::mt19937 random(5);
+  for (int i = 0; i < 30 * 31 * 32; ++i) {
+    image.labels.push_back(static_cast<std::uint16_t>(random() % 3));
+  }
+  const Shape one = solid_of(image, 1), two = solid_of(image, 2);
+  const Shape* both[] = {&one, &two};
+  const Point lo{0.5, -0.3, 0.2}, hi{3.3, 3.1, 4.2};
+  double shares[2] = {};
+  visible_fractions(both, Geometry::three_d, lo, hi, shares);
+  for (std::uint16_t label = 1; label < 3; ++label) {
+    EXPECT_NEAR(shares[label - 1], exact(image, label, lo, hi) / (2.8 * 3.4 * 4.0), 1e-11);
+  }
+}
+
 TEST(Voxels, LabelsFillTheImageWithoutGapsOrOverlap) {
   const TestImage image = chance(0);
   const Shape one = solid_of(image, 1), two = solid_of(image, 2), below{Box{{-20, -20, -20}, {20, 20, 20}}};
@@ -106,7 +123,7 @@ TEST(Voxels, CombineExactlyWithBoxesAndWellWithSpheres) {
   const Shape one = solid_of(image, 1), two = solid_of(image, 2);
   const Box box{{-1.05, 1.03, 3.77}, {1.49, 4.21, 6.11}};
   const Shape in_box{Combination{Kind::intersect, {one, Shape{box}}}};
-  const Point lo{-2.2, 0.2, 3.1}, hi{2.1, 6.1, 8.3};
+  const Point lo{-2.1, 0.2, 3.1}, hi{2.1, 6.1, 8.3};
   const double cell = (hi[0] - lo[0]) * (hi[1] - lo[1]) * (hi[2] - lo[2]);
   EXPECT_NEAR(fraction(in_box, Geometry::three_d, lo, hi) * cell, exact(image, 1, box.from, box.to), 1e-11);
   // A ball over both labels, cell by cell: what the three show is the ball's volume and the rest.
