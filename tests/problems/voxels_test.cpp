@@ -85,13 +85,18 @@ TEST(Voxels, CellsTakeExactlyTheVolumeTheyShare) {
   });
 }
 
-/// More voxels in a cell than lines would be cast through it.
-TEST(Voxels, FineVoxelsAreExactInCoarseCells) {
+TestImage fine() {
   TestImage image{{30, 31, 32}, {0.11, 0.12, 0.13}, {0.3, -0.4, 0}, {}};
   std::mt19937 random(5);
   for (int i = 0; i < 30 * 31 * 32; ++i) {
     image.labels.push_back(static_cast<std::uint16_t>(random() % 3));
   }
+  return image;
+}
+
+/// More voxels in a cell than lines would be cast through it.
+TEST(Voxels, FineVoxelsAreExactInCoarseCells) {
+  const TestImage image = fine();
   const Shape one = solid_of(image, 1), two = solid_of(image, 2);
   const Shape* both[] = {&one, &two};
   const Point lo{0.5, -0.3, 0.2}, hi{3.3, 3.1, 4.2};
@@ -100,6 +105,37 @@ TEST(Voxels, FineVoxelsAreExactInCoarseCells) {
   for (std::uint16_t label = 1; label < 3; ++label) {
     EXPECT_NEAR(shares[label - 1], exact(image, label, lo, hi) / (2.8 * 3.4 * 4.0), 1e-11);
   }
+}
+
+/// Lines are cast where another shape than boxes passes through: exact all the same if its side is along the axes and the
+/// voxels in the cell are few, else to the lines' width.
+TEST(Voxels, LinesThroughThemFindTheirFaces) {
+  const TestImage image = chance();
+  const Shape one = solid_of(image, 1), two = solid_of(image, 2), over{HalfSpace{{0, 0, 5.6}, {0, 0, 1}}};
+  const Shape* all[] = {&one, &two, &over};
+  int cut = 0;
+  for_chance_boxes([&](const Point& lo, Point hi) {
+    hi[0] = std::min(hi[0], lo[0] + 2); // six planes at most
+    if (lo[2] >= 5.6 || hi[2] <= 5.6) {
+      return;
+    }
+    const double cell = (hi[0] - lo[0]) * (hi[1] - lo[1]) * (hi[2] - lo[2]);
+    double shares[3] = {};
+    visible_fractions(all, Geometry::three_d, lo, hi, shares);
+    const Point above{lo[0], lo[1], 5.6};
+    EXPECT_NEAR(shares[0], exact(image, 1, above, hi) / cell, 1e-11);
+    EXPECT_NEAR(shares[1], exact(image, 2, above, hi) / cell, 1e-11);
+    cut += shares[0] > 0;
+  });
+  EXPECT_GT(cut, 100);
+  const TestImage small = fine();
+  const Shape grains = solid_of(small, 1), slanted{HalfSpace{{1.9, 1.4, 2.2}, {0.6, 0, 0.8}}};
+  const Shape* both[] = {&grains, &slanted};
+  double shares[2] = {};
+  const Point lo{0.5, -0.3, 0.2}, hi{3.3, 3.1, 4.2};
+  visible_fractions(both, Geometry::three_d, lo, hi, shares);
+  EXPECT_NEAR(shares[1], 0.5, 1e-3);                                                 // through the middle
+  EXPECT_NEAR(shares[0], 0.5 * exact(small, 1, lo, hi) / (2.8 * 3.4 * 4.0), 0.01); // a third of 30^3 grains: half of them to 1 in 100
 }
 
 TEST(Voxels, LabelsFillTheImageWithoutGapsOrOverlap) {
