@@ -97,7 +97,12 @@ bool check_place(Context c, const Section& in, const Body& body) {
       return false;
     }
   }
-  return true;
+  const bool reached = c.scene.motion.policy == MotionPolicy::follow || !std::holds_alternative<Voxels>(body.shape.form) || !std::isfinite(mesh.lo[0]) ||
+                       fraction(body.shape, c.scene.geometry, mesh.lo, mesh.hi) > 0;
+  if (!reached) { // about the mesh, with a hole where it is
+    c.deck.fail(*in.node("shape"), fmt::format("no voxel of body \"{}\" lies in the mesh", body.name), "a mesh where the label is, or an `offset` that brings it there");
+  }
+  return reached;
 }
 
 bool add(Context c, const Section& in, Body body) {
@@ -203,6 +208,10 @@ bool lean(Context c, const Section& in, Body& body) {
   const auto tip = read_tip(c, in);
   const auto attitude = direction && tip ? read_attitude(c.deck, in, c.scene, *direction, *tip) : std::nullopt;
   if (!attitude) {
+    return false;
+  }
+  if (!can_turn(attitude->body.turn, body.shape)) {
+    c.deck.fail(*in.node("shape"), "voxels turn by right angles only, and this body leans", "no yaw and no obliquity, or another shape");
     return false;
   }
   body.shape = placed(attitude->body, body.shape);

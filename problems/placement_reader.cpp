@@ -53,7 +53,8 @@ std::optional<Rotation> read_turn(Deck& deck, const Section& in, Geometry geomet
   return rotation_about(axis, in.number("angle"));
 }
 
-/// The factor of a unit of length; nothing (and an error) for another word.
+} // namespace
+
 std::optional<double> read_units(Deck& deck, const Section& in) {
   const Quantity unit = parse_quantity("1 " + in.text("units"), Dimension::length);
   if (!unit.ok() || !(unit.value > 0)) {
@@ -63,7 +64,6 @@ std::optional<double> read_units(Deck& deck, const Section& in) {
   return unit.value;
 }
 
-/// The resolved deck says which file it was, wherever it is read from.
 void pin_file(Deck& deck, const Section& in, const std::string& path, const std::string& checksum) {
   in.node("file")->text = std::filesystem::absolute(path).lexically_normal().string();
   if (in.has("checksum") && in.text("checksum") != checksum) {
@@ -76,8 +76,6 @@ void pin_file(Deck& deck, const Section& in, const std::string& path, const std:
     in.self().fields.emplace_back("checksum", std::move(sum));
   }
 }
-
-} // namespace
 
 std::optional<Shape> read_surface(Deck& deck, DeckNode& node, Geometry geometry) {
   if (geometry != Geometry::three_d) {
@@ -119,6 +117,10 @@ std::optional<Shape> read_placed(Deck& deck, const Section& in, Geometry geometr
     }
     const std::optional<Rotation> rotation = read_turn(deck, turn, geometry);
     if (!rotation) {
+      return std::nullopt;
+    }
+    if (!can_turn(*rotation, shape)) {
+      deck.fail_key(*in.node("rotate"), "voxels turn by right angles only", "a right angle, or the image resampled the way it is to lie");
       return std::nullopt;
     }
     placement.turn = *rotation;

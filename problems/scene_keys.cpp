@@ -266,6 +266,7 @@ std::string reference() {
                               &revolved(2),
                               &half_space(2),
                               &stl(),
+                              &voxels(),
                               &rotate(3),
                               &mesh(),
                               &mesh_outline(),

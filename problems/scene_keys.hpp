@@ -20,6 +20,7 @@ const SectionSpec& cylinder(std::size_t dim);
 const SectionSpec& revolved(std::size_t dim);
 const SectionSpec& half_space(std::size_t dim);
 const SectionSpec& stl();
+const SectionSpec& voxels();
 const SectionSpec& rotate(std::size_t dim);
 const SectionSpec& mesh();
 const SectionSpec& mesh_outline();

@@ -46,6 +46,14 @@ std::optional<Profile> read_profile(Deck& deck, const Section& in);
 /// An `stl` table: a closed surface from a file; nothing (and an error) if it encloses no solid.
 std::optional<Shape> read_surface(Deck& deck, DeckNode& node, Geometry geometry);
 
+/// A `voxels` table: labels of an image; nothing (and an error) if they cannot be had.
+std::optional<Shape> read_voxels(Deck& deck, DeckNode& node, Geometry geometry);
+
+/// `units` of a file: metres in one of them; nothing (and an error) for a word that is no unit of length.
+std::optional<double> read_units(Deck& deck, const Section& in);
+/// The resolved deck says which `file` it was, wherever it is read from, by its place and `checksum`.
+void pin_file(Deck& deck, const Section& in, const std::string& path, const std::string& checksum);
+
 /// `rotate` and `offset` of a shape's table applied to it.
 std::optional<Shape> read_placed(Deck& deck, const Section& in, Geometry geometry, const Shape& shape);
 

@@ -143,6 +143,8 @@ void jumps(const TurnedBox& box, std::size_t j, bool, std::vector<double>& out) 
 void jumps(const Surface& s, std::size_t j, bool, std::vector<double>& out) {
   ballast::jumps(s, j, out);
 }
+/// None: an image has any number of planes, a cell few (problems/shape_fractions asks for those).
+void jumps(const Voxels&, std::size_t, bool, std::vector<double>&) {}
 void jumps(const Combination& c, std::size_t j, bool flat, std::vector<double>& out) {
   for (const Shape& part : c.parts) {
     jumps(part, j, flat, out);

@@ -57,4 +57,6 @@ void jumps(const Shape& shape, std::size_t j, bool flat, std::vector<double>& ou
 void cut(const Surface& s, const Line& line, Cuts& cuts);
 void jumps(const Surface& s, std::size_t j, std::vector<double>& out);
 
+void cut(const Voxels& v, const Line& line, Cuts& cuts);
+
 } // namespace ballast

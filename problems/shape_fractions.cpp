@@ -47,6 +47,10 @@ Side side_of(const Shape& shape, const Cell& cell) {
            : holds(*s, cell.centre())   ? Side::inside
                                         : Side::outside;
   }
+  if (const auto* v = std::get_if<Voxels>(&shape.form)) {
+    const double share = covered_share(*v, cell.lo, cell.hi);
+    return share <= 0 ? Side::outside : share >= 1 ? Side::inside : Side::cut;
+  }
   const double d = signed_distance(shape, cell.centre());
   if (std::abs(d) < cell.half_diagonal()) {
     return Side::cut;
@@ -195,6 +199,30 @@ void cast_part(std::span<const Shape* const> shapes,
   }
 }
 
+/// The marks inside axis k of a cell and its ends, in order.
+std::vector<double> ends_of(std::vector<double> marks, const Cell& cell, std::size_t k) {
+  const double least = 1e-12 * cell.size(k);
+  std::erase_if(marks,
+                [&](double m) { return !(m > cell.lo[k] + least && m < cell.hi[k] - least); });
+  marks.insert(marks.end(), {cell.lo[k], cell.hi[k]});
+  std::sort(marks.begin(), marks.end());
+  const auto same = [&](double a, double b) { return b - a <= least; };
+  marks.erase(std::unique(marks.begin(), marks.end(), same), marks.end());
+  return marks;
+}
+
+/// Where voxels meet inside the cell, if that is in few places: lines are good enough for many.
+void add_voxel_planes(const Shape& shape, const Cell& cell, std::size_t k, std::vector<double>& marks) {
+  constexpr std::size_t many = 8;
+  std::vector<double> planes;
+  if (has_voxels(shape)) {
+    box_planes(shape, k, cell.lo[k], cell.hi[k], planes);
+  }
+  if (planes.size() <= many) {
+    marks.insert(marks.end(), planes.begin(), planes.end());
+  }
+}
+
 /// Ends of the stretches that the jumps cut axis k of a cell into.
 std::vector<double> stretches(std::span<const Shape* const> shapes,
                               std::span<const std::size_t> candidates,
@@ -206,15 +234,35 @@ std::vector<double> stretches(std::span<const Shape* const> shapes,
   std::vector<double> marks;
   for (const std::size_t s : candidates) {
     jumps(*shapes[s], k, cell.dim() == 2, marks);
+    add_voxel_planes(*shapes[s], cell, k, marks);
   }
-  const double least = 1e-12 * cell.size(k);
-  std::erase_if(marks,
-                [&](double m) { return !(m > cell.lo[k] + least && m < cell.hi[k] - least); });
-  marks.insert(marks.end(), {cell.lo[k], cell.hi[k]});
-  std::sort(marks.begin(), marks.end());
-  const auto same = [&](double a, double b) { return b - a <= least; };
-  marks.erase(std::unique(marks.begin(), marks.end(), same), marks.end());
-  return marks;
+  return ends_of(std::move(marks), cell, k);
+}
+
+/// Between boxes along the axes there are only boxes: each part has one owner.
+void add_boxes(std::span<const Shape* const> shapes,
+               std::span<const std::size_t> candidates,
+               std::span<const std::size_t> cut,
+               const Cell& cell,
+               std::span<double> sums) {
+  std::array<std::vector<double>, 3> marks;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const std::size_t s : cut) {
+      box_planes(*shapes[s], k, cell.lo[k], cell.hi[k], marks[k]);
+    }
+    marks[k] = ends_of(std::move(marks[k]), cell, k);
+  }
+  for (std::size_t k = 0; k + 1 < marks[2].size(); ++k) {
+    for (std::size_t j = 0; j + 1 < marks[1].size(); ++j) {
+      for (std::size_t i = 0; i + 1 < marks[0].size(); ++i) {
+        const double size[3] = {marks[0][i + 1] - marks[0][i], marks[1][j + 1] - marks[1][j], marks[2][k + 1] - marks[2][k]};
+        const int who = owner(shapes, candidates, {marks[0][i] + 0.5 * size[0], marks[1][j] + 0.5 * size[1], marks[2][k] + 0.5 * size[2]});
+        if (who >= 0) {
+          sums[static_cast<std::size_t>(who)] += size[0] * size[1] * size[2];
+        }
+      }
+    }
+  }
 }
 
 /// Cuts the cell at aligned faces, which lines along any axis would miss or graze, and casts each
@@ -253,8 +301,11 @@ void cast_seen(std::span<const Shape* const> shapes,
   cast_cell(all, candidates, cell, sums);
 }
 
-/// The share of a surface that alone is cut by the cell: exact, and quicker than lines.
-std::optional<double> share_of_surface(const Shape& shape, const Cell& cell) {
+/// The share of a surface or of voxels that alone are cut by the cell: exact, and quicker than lines.
+std::optional<double> share_alone(const Shape& shape, const Cell& cell) {
+  if (const auto* v = std::get_if<Voxels>(&shape.form)) {
+    return covered_share(*v, cell.lo, cell.hi);
+  }
   const auto* s = std::get_if<Surface>(&shape.form);
   return s != nullptr ? covered_share(SurfacePiece(*s->whole, cell.lo, cell.hi), cell.lo, cell.hi) : std::nullopt;
 }
@@ -276,8 +327,7 @@ void visible_fractions(std::span<const Shape* const> shapes,
                        std::span<double> shares) {
   const Cell cell{geometry, lo, hi};
   std::fill(shares.begin(), shares.end(), 0.0);
-  std::vector<std::size_t> candidates; // ascending
-  int cuts = 0;
+  std::vector<std::size_t> candidates, cut; // ascending
   for (std::size_t s = shapes.size();
        s-- > 0;) { // from the top: what lies under a full one is hidden
     const Side side = side_of(*shapes[s], cell);
@@ -285,7 +335,9 @@ void visible_fractions(std::span<const Shape* const> shapes,
       continue;
     }
     candidates.insert(candidates.begin(), s);
-    cuts += side == Side::cut;
+    if (side == Side::cut) {
+      cut.insert(cut.begin(), s);
+    }
     if (side == Side::inside) {
       break;
     }
@@ -293,17 +345,21 @@ void visible_fractions(std::span<const Shape* const> shapes,
   if (candidates.empty()) {
     return;
   }
-  if (cuts == 0) {
+  if (cut.empty()) {
     shares[candidates.front()] = 1;
     return;
   }
-  if (const auto share = cuts == 1 ? share_of_surface(*shapes[candidates.back()], cell) : std::nullopt) {
+  if (const auto share = cut.size() == 1 ? share_alone(*shapes[candidates.back()], cell) : std::nullopt) {
     shares[candidates.front()] = 1 - *share; // of what lies under it, if anything does
     shares[candidates.back()] = *share;
     return;
   }
+  const bool voxels = std::any_of(cut.begin(), cut.end(), [&](std::size_t i) { return has_voxels(*shapes[i]); });
+  const bool boxes = voxels && std::all_of(cut.begin(), cut.end(), [&](std::size_t i) { return made_of_boxes(*shapes[i]); });
   const bool facets = std::any_of(candidates.begin(), candidates.end(), [&](std::size_t i) { return has_surface(*shapes[i]); });
-  if (facets) {
+  if (boxes) {
+    add_boxes(shapes, candidates, cut, cell, shares);
+  } else if (facets) {
     cast_seen(shapes, candidates, cell, shares);
   } else {
     cast_cell(shapes, candidates, cell, shares);

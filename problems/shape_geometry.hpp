@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace ballast {
 
@@ -58,5 +59,19 @@ bool has_surface(const Shape& shape);
 Shape seen_from(const Shape& shape, const Point& lo, const Point& hi);
 /// Does the surface itself come into the box?
 bool enters(const Surface& s, const Point& lo, const Point& hi);
+
+// ---- voxels (problems/shape_voxels.cpp) ----
+
+double distance_to(const Voxels& v, const Point& p);
+bool holds(const Voxels& v, const Point& p);
+const Bounds& bounds_of(const Voxels& v);
+/// Share of the box lo..hi, 0 to 1; what is within rounding of either is it.
+double covered_share(const Voxels& v, const Point& lo, const Point& hi);
+/// Any voxels among the shape's parts?
+bool has_voxels(const Shape& shape);
+/// Nothing but voxels and boxes along the axes, so that planes square to them cut it into boxes?
+bool made_of_boxes(const Shape& shape);
+/// Those planes across axis k between lo and hi.
+void box_planes(const Shape& shape, std::size_t k, double lo, double hi, std::vector<double>& out);
 
 } // namespace ballast

@@ -99,6 +99,28 @@ SectionSpec stl_spec() {
             .doc = "of the file, as the resolved deck has it: another file is then refused"}}};
 }
 
+SectionSpec voxels_spec() {
+  return {"voxels",
+          "Labels of a segmented image, 3d scenes only: MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr) or NIfTI (.nii, .nii.gz) with one "
+          "whole number from 0 to 65535 a voxel. x, y and z are those of the file's space, its origin the centre of the first voxel, "
+          "which is half a spacing inside the block; `offset` moves it, `rotate` turns it by right angles. An image whose axes do not "
+          "lie along x, y and z is refused. A cell takes the volume of the voxels that it shares with them, so that bodies of several "
+          "labels of one image fill what those labels fill, to the last digit, whatever the mesh (curved meshes: to the lines cast "
+          "through a cell, as for all shapes). Name the same file in each of them.",
+          {{.name = "file", .kind = text, .doc = "beside the deck", .required = true},
+           {.name = "label",
+            .kind = special,
+            .doc = "the voxels wanted: `3`, or several labels as one body, `[3, 4]`",
+            .required = true},
+           {.name = "units",
+            .kind = text,
+            .doc = "what the file's lengths are in, a unit of length, whatever the file says itself",
+            .fallback = "mm"},
+           {.name = "checksum",
+            .kind = text,
+            .doc = "of the image, as the resolved deck has it: another image is then refused"}}};
+}
+
 SectionSpec rotate_spec(std::size_t dim) {
   SectionSpec spec = {"rotate",
                       "Beside a shape in its table: `shape = { box = {...}, rotate = { angle = \"30 deg\", axis = "
@@ -145,6 +167,7 @@ const SectionSpec& shape() {
         .kind = special,
         .doc = "list of shapes: the first without the others"},
        {.name = "stl", .kind = table, .doc = "3d: inside a closed surface of triangles"},
+       {.name = "voxels", .kind = table, .doc = "3d: where an image has a label"},
        {.name = "rotate", .kind = table, .doc = "beside a shape of any kind: turns it, see below"},
        {.name = "offset",
         .kind = quantities,
@@ -178,6 +201,10 @@ const SectionSpec& half_space(std::size_t dim) {
 
 const SectionSpec& stl() {
   static const SectionSpec spec = stl_spec();
+  return spec;
+}
+const SectionSpec& voxels() {
+  static const SectionSpec spec = voxels_spec();
   return spec;
 }
 const SectionSpec& rotate(std::size_t dim) {

@@ -1,7 +1,9 @@
 #include "problems/shape_placement.hpp"
 
+#include "core/error.hpp"
 #include "problems/closed_surface.hpp"
 #include "problems/shape_geometry.hpp"
+#include "problems/voxel_solid.hpp"
 
 #include <cmath>
 
@@ -95,6 +97,14 @@ Shape place(const Placement& at, const Surface& s) {
   return Shape{Surface{std::make_shared<const ClosedSurface>(std::move(mesh)), nullptr}};
 }
 
+Shape place(const Placement& at, const Voxels& v) {
+  if (!keeps_axes(at.turn)) {
+    throw Error("voxels turn by right angles only");
+  }
+  const Point corner = placed(at, v.solid->corner());
+  return Shape{Voxels{std::make_shared<const VoxelSolid>(is_identity(at.turn) ? v.solid->moved(corner) : v.solid->turned(at.turn, corner))}};
+}
+
 Shape place(const Placement& at, Combination c) {
   for (Shape& part : c.parts) {
     part = placed(at, part);
@@ -152,6 +162,10 @@ Point placed(const Placement& at, const Point& p) {
     return p + at.offset; // no rounding about the pivot
   }
   return at.about + turned(at.turn, p - at.about) + at.offset;
+}
+
+bool can_turn(const Rotation& turn, const Shape& shape) {
+  return keeps_axes(turn) || !has_voxels(shape);
 }
 
 Shape placed(const Placement& at, const Shape& shape) {

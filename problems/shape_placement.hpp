@@ -1,7 +1,7 @@
 // Shapes turned about a point and moved:
 //   x -> about + R (x - about) + offset
 // The result is a shape like any other: nothing is turned while cells are filled. Right angles are
-// exact: a box stays a box.
+// exact: a box stays a box. Voxels turn by right angles only.
 #pragma once
 
 #include "problems/shapes.hpp"
@@ -25,5 +25,7 @@ Rotation rotation_xyz(const Point& angles);
 Point turned(const Rotation& turn, const Point& direction);
 Point placed(const Placement& placement, const Point& point);
 Shape placed(const Placement& placement, const Shape& shape);
+/// Can the shape be turned so? Voxels by right angles only: what is asked first is never refused by placed.
+bool can_turn(const Rotation& turn, const Shape& shape);
 
 } // namespace ballast

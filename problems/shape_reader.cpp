@@ -141,6 +141,9 @@ std::optional<Shape> read_form(Context c, const std::string& kind, DeckNode& inn
   if (kind == "stl") {
     return read_surface(c.deck, inner, c.geometry);
   }
+  if (kind == "voxels") {
+    return read_voxels(c.deck, inner, c.geometry);
+  }
   return read_combination(c,
                           inner,
                           kind == "union"          ? Combination::Kind::unite

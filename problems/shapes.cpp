@@ -1,6 +1,7 @@
 // Distances, bounds and names of shapes.
 #include "problems/closed_surface.hpp"
 #include "problems/shape_geometry.hpp"
+#include "problems/voxel_solid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -246,6 +247,9 @@ std::string describe_one(const TurnedBox&) {
 std::string describe_one(const Surface& s) {
   const FacetMesh& mesh = s.whole->mesh();
   return fmt::format("surface of {} facets, {:g} m3", mesh.facets.size(), enclosed_volume(mesh));
+}
+std::string describe_one(const Voxels& v) {
+  return fmt::format("{} voxels, {:g} m3", v.solid->count(), v.solid->volume());
 }
 std::string describe_one(const Combination& c) {
   const char* names[] = {"union", "intersection", "difference"};

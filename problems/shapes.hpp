@@ -10,7 +10,7 @@
 // crosses the surface most squarely, cut exactly where they meet a surface, and summed
 // (axisymmetric: weighted with r). Error below 1e-3 of a cell for shapes that are smooth on the
 // cell's scale; aligned faces are exact. A closed surface of facets is asked through the few facets
-// that are in the cell.
+// that are in the cell. Voxels are exact against each other and against boxes.
 #pragma once
 
 #include <array>
@@ -78,6 +78,13 @@ struct Surface {
   std::shared_ptr<const SurfacePiece> piece; ///< what the cell in hand sees of it, or none
 };
 
+class VoxelSolid;
+
+/// Voxels of an image that have one of the labels wanted; 3D scenes only.
+struct Voxels {
+  std::shared_ptr<const VoxelSolid> solid;
+};
+
 struct Shape;
 
 /// All of (intersection), any of (union), or the first without the others (difference).
@@ -88,7 +95,7 @@ struct Combination {
 };
 
 struct Shape {
-  std::variant<Box, Sphere, Cylinder, Revolved, HalfSpace, Combination, TurnedBox, Surface> form;
+  std::variant<Box, Sphere, Cylinder, Revolved, HalfSpace, Combination, TurnedBox, Surface, Voxels> form;
 };
 
 /// Smallest known aligned box around a shape; infinite where it is.

@@ -10,7 +10,7 @@ ballast_build="$ballast_root/build/$ballast_preset"
 # font is for the report's pictures, which are drawn without an X server.
 ballast_packages=(
   g++ cmake ninja-build ccache
-  libeigen3-dev libsundials-dev libhdf5-dev libvtk9-dev
+  libeigen3-dev libsundials-dev libhdf5-dev libvtk9-dev zlib1g-dev
   libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libgtest-dev
   fonts-dejavu-core
 )
