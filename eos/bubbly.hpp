@@ -6,6 +6,8 @@
 // n = 7 (Tait, as water). Without the tissue's compression P = P0 [phi0/(phi0 - mu/(1 + mu))]^gamma, mu = rho/rho0 - 1;
 // with it there is no pole. At rest c^2 = K_s/rho0 + Wood's: 1/(rho c^2) = phi0/(gamma P0) + (1 - phi0)/K
 // (Wood, A Textbook of Sound, 1930). c^2 is the exact derivative and positive everywhere; tension ends at -P0 - K_s.
+// Pressed until its tissue has half of its volume it goes on along a straight line: what n = 7 makes of a trace that is
+// pressed a hundredfold is no pressure that anything has.
 // Work goes to the energy, which only keeps the books: shock heat in the gas does not push back.
 #pragma once
 
@@ -25,18 +27,27 @@ struct Bubbly {
   double tissue_modulus() const { return rho0 / (1 - gas_fraction) * c0 * c0; }
 
   double pressure(double rho, double) const {
-    return p_rest + (shared(rho).P - gas_pressure) + skeleton_modulus * (rho / rho0 - 1);
+    const Shared end = beyond(rho) ? volume(most()) : Shared{};
+    const double P = end.P > 0 ? end.P + slope(end) * (rho - rho0 / end.v) : shared(rho).P;
+    return p_rest + (P - gas_pressure) + skeleton_modulus * (rho / rho0 - 1);
   }
-  double sound_speed_squared(double rho, double) const {
-    return rho0 / (rho * rho * -shared(rho).dv) + skeleton_modulus / rho0;
-  }
+  double sound_speed_squared(double rho, double) const { return slope(beyond(rho) ? volume(most()) : shared(rho)) + skeleton_modulus / rho0; }
+  /// Pa: what gas and tissue share where the straight line begins.
+  double most() const { return gas_pressure + tissue_modulus() / n * (std::pow(tightest, -n) - 1); }
   double energy(double, double) const { return 0; }
 
 private:
-  static constexpr double n = 7;
+  static constexpr double n = 7, tightest = 0.5; ///< the last: of the tissue's volume
   struct Shared {
     double P, v, dv; // pressure of both, volume over that at rest, and its derivative by P
   };
+  /// dP/drho.
+  double slope(const Shared& s) const { return s.v * s.v / (rho0 * -s.dv); }
+  bool beyond(double rho) const {
+    constexpr double near = 0.75; // of the tissue's volume: what is looser need not be looked at
+    const double x = rho0 / rho;
+    return x < near * (1 - gas_fraction) && x < volume(most()).v;
+  }
   Shared volume(double P) const {
     const double K = tissue_modulus(), stiff = K + n * (P - gas_pressure);
     const double gas = gas_fraction * std::pow(gas_pressure / P, 1 / gamma);

@@ -25,10 +25,10 @@ double density_at(const Bubbly& m, double P) {
 
 std::vector<Bubbly> lungs() { return {lung(0.01), lung(0.3, 1.0), lung(0.8), lung(0.8, 1.2, 9e3), lung(0.99, 5.0 / 3, 1e5)}; }
 
-// From hard tension to 1 TPa: the pressure of a density is the one that makes this density. Backwards the law is a closed form.
+// From hard tension to where tissue has half of its volume (45 GPa): the pressure of a density is the one that makes this density. Backwards the law is a closed form.
 TEST(Bubbly, PressureIsTheOneGasAndTissueShare) {
   for (const Bubbly& m : lungs()) {
-    for (double decade = -4; decade <= 12; decade += 0.01) {
+    for (double decade = -4; decade <= 10.65; decade += 0.01) {
       const double P = std::pow(10, decade), rho = density_at(m, P);
       const double shared = m.pressure(rho, 0) - m.skeleton_modulus * (rho / m.rho0 - 1) + m.gas_pressure;
       // Density in 1e-15 moves the pressure by rho c^2 times that.
@@ -61,6 +61,18 @@ TEST(Bubbly, PressureRisesWithDensityWithoutAPole) {
       ASSERT_TRUE(std::isfinite(p));
       ASSERT_GE(p, last) << describe(m) << " " << decade;
       last = p;
+    }
+  }
+}
+
+// A trace that is pressed a thousandfold: the slope that it had at half of the tissue's volume, without a jump.
+TEST(Bubbly, BeyondHalfTheTissuesVolumeThePressureIsALine) {
+  for (const Bubbly& m : lungs()) {
+    const double P = m.most(), rho = density_at(m, P), c2 = m.sound_speed_squared(rho * (1 - 1e-9), 0);
+    EXPECT_NEAR(P / m.tissue_modulus(), 127.0 / 7, 1e-3);
+    for (const double times : {1.0 + 1e-9, 1.1, 10.0, 1e5}) {
+      EXPECT_NEAR(m.sound_speed_squared(times * rho, 0) / c2, 1, 1e-6);
+      EXPECT_NEAR(m.pressure(times * rho, 0), m.pressure(rho * (1 - 1e-9), 0) + c2 * rho * (times - 1), 1e-6 * (P + c2 * rho * times)) << times;
     }
   }
 }
