@@ -1,17 +1,13 @@
 // Torn cloth that becomes a material of the mesh (ale/embedding_debris): nothing of it is lost on the way.
 #include "ale/embedding.hpp"
-#include "problems/run_session.hpp"
-#include "tests/io/temporary_folder.hpp"
 #include "tests/observers.hpp"
 #include "tests/problems/restarts.hpp"
+#include "tests/problems/run_deck.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 namespace ballast {
@@ -24,10 +20,7 @@ std::vector<std::string> sets(double until) {
 }
 
 void expect_kept(const std::vector<std::string>& some) {
-  const io::TemporaryFolder folder;
-  ASSERT_EQ(RunSession<2>(read_scene(deck, some), folder.path() / "run", 2, "").run(), 0);
-  std::ifstream in(folder.path() / "run" / "summary.json");
-  const nlohmann::json j = nlohmann::json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
+  const nlohmann::json j = run_written<2>(read_scene(deck, some), 2).summary;
   const nlohmann::json& vest = j["results"]["layers"]["vest"]["mass_kg"];
   const double became = vest["became_debris"].get<double>(), torn = vest["eroded"].get<double>();
   EXPECT_GT(became, 0.05 * torn);

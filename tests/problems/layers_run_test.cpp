@@ -1,16 +1,12 @@
 // A run of a scene with fabric layers: what it conserves, what it writes, and that neither threads nor a restart change a bit.
 #include "ale/embedding.hpp"
-#include "problems/run_session.hpp"
-#include "tests/io/temporary_folder.hpp"
 #include "tests/observers.hpp"
 #include "tests/problems/restarts.hpp"
+#include "tests/problems/run_deck.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
-#include <nlohmann/json.hpp>
 
 namespace ballast {
 namespace {
@@ -147,25 +143,7 @@ std::string bullet_deck(bool solid) {
                  "core\", \"jacket");
 }
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  EXPECT_TRUE(in.good()) << path;
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-struct Written {
-  nlohmann::json summary;
-  std::string history, back_face;
-};
-
-template <int Dim> Written run(int threads, const std::string& text) {
-  const io::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "deck.toml", dir = folder.path() / "run";
-  std::ofstream(file) << text;
-  const ReadScene read = read_scene(file.string(), {});
-  EXPECT_EQ(RunSession<Dim>(read, dir, threads, "").run(), 0);
-  return {nlohmann::json::parse(text_of(dir / "summary.json")), text_of(dir / "history.csv"), text_of(dir / "back_face_0001.csv")};
-}
+template <int Dim> Written run(int threads, const std::string& text) { return run_text<Dim>(text, threads); }
 
 template <int Dim> Written run(int threads) { return run<Dim>(threads, deck(Dim == 3)); }
 
@@ -203,10 +181,7 @@ TEST(LayersRun, ADiscOnAMeshThatStaysDoesToo) {
 
 /// Summary of a deck of problems/.
 nlohmann::json run_shipped(const std::string& deck, const std::vector<std::string>& sets) {
-  const io::TemporaryFolder folder;
-  const ReadScene read = read_scene(std::string(BALLAST_SOURCE_DIR) + "/problems/" + deck, sets);
-  EXPECT_EQ(RunSession<2>(read, folder.path() / "run", 2, "").run(), 0);
-  return nlohmann::json::parse(text_of(folder.path() / "run" / "summary.json"));
+  return run_written<2>(read_scene(std::string(BALLAST_SOURCE_DIR) + "/problems/" + deck, sets), 2).summary;
 }
 
 /// M80 through the vest, where the bullet slides along tissue beside torn layers: what slides and the rest have momenta of their own, and energy

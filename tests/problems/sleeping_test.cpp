@@ -4,6 +4,7 @@
 #include "problems/run_checkpoint.hpp"
 #include "problems/scene_reader.hpp"
 #include "tests/observers.hpp"
+#include "tests/problems/run_deck.hpp"
 
 #include <bit>
 #include <cstdint>
@@ -13,13 +14,6 @@
 
 namespace ballast {
 namespace {
-
-SceneSpec spec_of(const std::string& text) {
-  Deck d = Deck::parse(text, "test.toml", {});
-  SceneSpec s = read_scene(d);
-  d.throw_if_errors();
-  return s;
-}
 
 /// A ball of 3 mm radius flies along z into muscle that begins at z = 0; `more` is top-level lines of the deck, `tables`
 /// tables of it.

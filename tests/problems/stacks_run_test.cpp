@@ -1,15 +1,12 @@
 // Several stacks in a scene: they touch as layers do, and a mesh sees those that lie face to face as one body.
 #include "ale/embedding.hpp"
-#include "problems/run_session.hpp"
-#include "tests/io/temporary_folder.hpp"
 #include "tests/observers.hpp"
 #include "tests/problems/restarts.hpp"
+#include "tests/problems/run_deck.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace ballast {
 namespace {
@@ -50,23 +47,7 @@ std::string deck(Geometry geometry, Way way, const std::vector<Part>& parts, dou
   return text + "[output]\nfields_every = \"20 us\"\n[results]\nbullet = [\"disc\"]\n";
 }
 
-struct Written {
-  nlohmann::json summary;
-  std::string history;
-};
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-template <int Dim> Written run(const std::string& text, int threads = 2) {
-  const io::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "deck.toml", dir = folder.path() / "run";
-  std::ofstream(file) << text;
-  EXPECT_EQ(RunSession<Dim>(read_scene(file.string(), {}), dir, threads, "").run(), 0);
-  return {nlohmann::json::parse(text_of(dir / "summary.json")), text_of(dir / "history.csv")};
-}
+template <int Dim> Written run(const std::string& text, int threads = 2) { return run_text<Dim>(text, threads); }
 
 double deflection(const Written& w, const char* name) { return w.summary["results"]["layers"][name]["deflection_m"]["last"].get<double>(); }
 double speed(const Written& w) { return w.summary["results"]["bullet"]["velocity_m_per_s"].get<double>(); }

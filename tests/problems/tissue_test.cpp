@@ -4,6 +4,7 @@
 #include "problems/scene_reader.hpp"
 #include "tests/observers.hpp"
 #include "tests/problems/restarts.hpp"
+#include "tests/problems/run_deck.hpp"
 
 #include <bit>
 #include <cmath>
@@ -13,13 +14,6 @@
 
 namespace ballast {
 namespace {
-
-SceneSpec spec_of(const std::string& text) {
-  Deck d = Deck::parse(text, "test.toml", {});
-  SceneSpec s = read_scene(d);
-  d.throw_if_errors();
-  return s;
-}
 
 constexpr const char* prony = R"(strength = "prony"
 long_shear = "0.2 MPa"
