@@ -40,7 +40,7 @@ void cut_tractions(Block<Dim>& b, const CellLayers& layers, const Eigen::Vector3
     Eigen::Vector3d t = s * n;
     t -= n.dot(t) * n;
     const double size = t.norm(), carried = layers.carried(l.traction);
-    if (!(size > carried + 1e-12 * l.traction)) { // not for round-off: a restart cuts again
+    if (!(size > carried + 1e-12 * l.traction)) { // not for round-off
       continue;
     }
     const Eigen::Vector3d d = (carried / size - 1) * t;
@@ -137,7 +137,7 @@ template <> Eigen::Matrix3d gradient_of<3>(const WorkRows<3>& w, int i) {
   return l;
 }
 
-template <int Dim> void update_traction(Block<Dim>& b, ThreadPool& pool) {
+template <int Dim> void update_traction(Block<Dim>& b, ThreadPool& pool, bool cut) {
   if (!b.any_strength() || b.materials.size() < 2) {
     return;
   }
@@ -160,7 +160,9 @@ template <int Dim> void update_traction(Block<Dim>& b, ThreadPool& pool) {
           const CellLayers layers = layers_of(b, r, i);
           const Eigen::Vector3d n = interface_normal(b, layers, {i, j, k});
           normals[at++] = {n[0], n[1], n[2]};
-          cut_tractions(b, layers, n, r, i);
+          if (cut) {
+            cut_tractions(b, layers, n, r, i);
+          }
           traction_cell(b, r, i, n);
         }
       }
@@ -243,8 +245,8 @@ void share_strain(const Block<Dim>& b,
   }
 }
 
-template void update_traction<2>(Block<2>&, ThreadPool&);
-template void update_traction<3>(Block<3>&, ThreadPool&);
+template void update_traction<2>(Block<2>&, ThreadPool&, bool);
+template void update_traction<3>(Block<3>&, ThreadPool&, bool);
 template void share_strain<2>(const Block<2>&,
                               const MixedCell&,
                               const Eigen::Vector3d&,

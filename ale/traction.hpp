@@ -24,8 +24,8 @@ namespace ballast {
 
 /// Normal of the interface in each mixed cell of a block with strength; shear tractions cut to what it
 /// carries; pressure, modulus, stress and shear modulus of the cell from it. Last of a block's state: after update_state and
-/// the voids.
-template <int Dim> void update_traction(Block<Dim>& block, ThreadPool& pool);
+/// the voids. `cut` false: they are cut already, by the run that wrote a checkpoint; cut again they would lose round-off.
+template <int Dim> void update_traction(Block<Dim>& block, ThreadPool& pool, bool cut = true);
 
 /// Deviator of a material in a cell, Pa.
 template <int Dim> Eigen::Matrix3d deviator_of(const MaterialSlot& slot, int row, int i);

@@ -210,7 +210,7 @@ void read_checkpoint(const std::filesystem::path& path, Scene<Dim>& scene, Clock
       }
     }
     update_state(b, *scene.pool);
-    update_traction(b, *scene.pool);
+    update_traction(b, *scene.pool, false);
   }
   get_layers(in, scene.layers);
   get_embedded(in, scene);
