@@ -115,18 +115,13 @@ template <int Dim> void absorb_row(Block<Dim>& b, int j, int k, double dt, doubl
     }
     const Matrix<Dim> z = impedance(b, {i, j, k});
     // Where two velocities meet the traction moves both alike: their centre of mass is what it sees and works on.
-    Vector<Dim> u, free, apart = Vector<Dim>::Zero();
+    Vector<Dim> u, free, apart;
     for (int d = 0; d < Dim; ++d) {
       const auto a = static_cast<std::size_t>(d);
-      u[d] = b.velocity[a].row(r)[i];
-      free[d] = b.next_velocity[a].row(r)[i];
-      if (b.any_sliding()) {
-        const double off = b.sliding.node_mass.row(r)[i] / m[i] - remap::node_follows(b.sliding.node_mass.row(r)[i], m[i]);
-        u[d] += off * b.sliding.jump[a].row(r)[i];
-        apart[d] = off * b.sliding.next_jump[a].row(r)[i];
-      }
+      u[d] = mean_velocity<Dim>(b, b.velocity, b.sliding.jump, a, r, i);
+      free[d] = mean_velocity<Dim>(b, b.next_velocity, b.sliding.next_jump, a, r, i);
+      apart[d] = free[d] - b.next_velocity[a].row(r)[i];
     }
-    free += apart;
     const Matrix<Dim> half = (0.5 * dt / m[i]) * z;
     const Vector<Dim> next = (Matrix<Dim>::Identity() + half).inverse() * (free - half * u);
     const Vector<Dim> mean = 0.5 * (u + next), pull = -(z * mean);
@@ -140,6 +135,21 @@ template <int Dim> void absorb_row(Block<Dim>& b, int j, int k, double dt, doubl
   }
 }
 
+template <int Dim> std::array<double, Dim> absorbing_force(const Block<Dim>& b, const std::array<int, 3>& node) {
+  const int r = b.grid.node_row(node[1], node[2]), i = node[0];
+  Vector<Dim> mean;
+  for (int d = 0; d < Dim; ++d) {
+    const auto a = static_cast<std::size_t>(d);
+    mean[d] = 0.5 * (mean_velocity<Dim>(b, b.velocity, b.sliding.jump, a, r, i) + mean_velocity<Dim>(b, b.next_velocity, b.sliding.next_jump, a, r, i));
+  }
+  const Vector<Dim> pull = -(impedance(b, node) * mean);
+  std::array<double, Dim> force;
+  std::copy(pull.begin(), pull.end(), force.begin());
+  return force;
+}
+
+template std::array<double, 2> absorbing_force<2>(const Block<2>&, const std::array<int, 3>&);
+template std::array<double, 3> absorbing_force<3>(const Block<3>&, const std::array<int, 3>&);
 template void absorb_row<2>(Block<2>&, int, int, double, double* const (&)[2], BoundaryEffect&);
 template void absorb_row<3>(Block<3>&, int, int, double, double* const (&)[3], BoundaryEffect&);
 

@@ -13,4 +13,7 @@ namespace ballast {
 /// over the step.
 template <int Dim> void absorb_row(Block<Dim>& b, int j, int k, double dt, double* const (&force)[Dim], BoundaryEffect& effect);
 
+/// That mean (N) on one node, by the velocities as absorb_row left them; zero where nothing absorbs.
+template <int Dim> std::array<double, Dim> absorbing_force(const Block<Dim>& b, const std::array<int, 3>& node);
+
 } // namespace ballast

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ale/embedding.hpp"
+#include "ale/lagrange_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -131,17 +132,6 @@ template <int Dim> double whole_volume(const Block<Dim>& b, const std::array<Row
   v.resize(static_cast<std::size_t>(b.grid.cells[0]));
   cell_volumes(b, x, j, k, {i, i + 1}, v.data());
   return v[static_cast<std::size_t>(i)];
-}
-
-/// Velocity component (m/s) of the mass at a node: where what slides meets the rest the node need not move so (remap/mesh.hpp, Sliding).
-template <int Dim>
-double mean_velocity(const Block<Dim>& b, const std::array<RowField, Dim>& velocity, const std::array<RowField, Dim>& jump, std::size_t d, int r, int i) {
-  const double u = velocity[d].row(r)[i], mass = b.node_mass.row(r)[i];
-  if (!b.any_sliding() || !(mass > 0)) {
-    return u;
-  }
-  const double sliding = b.sliding.node_mass.row(r)[i];
-  return u + (sliding / mass - remap::node_follows(sliding, mass)) * jump[d].row(r)[i];
 }
 
 /// The velocity (m/s) at which a wall holds this component of a node's, or null.

@@ -5,6 +5,11 @@
 
 namespace ballast {
 
+template <int Dim> std::array<int, 3> node_of(const Grid& g, int row, int index) {
+  const int per = g.node_rows_per_plane(), k = row / per - (Dim == 3 ? g.ghost[2] : 0), j = row % per - g.ghost[1];
+  return {index, j, k};
+}
+
 /// Node velocities at the cell's corners.
 template <int Dim>
 std::array<std::array<double, Dim>, 1 << Dim> corner_velocities(const Grid& g, const std::array<RowField, Dim>& velocity, const std::array<int, 3>& cell) {
@@ -102,5 +107,9 @@ template <int Dim> Pool pool_of(const Scene<Dim>& scene, const Embedding<Dim>& e
   }
   return pool;
 }
+
+/// Beside bodies a node that holds next to nothing moves as its heaviest neighbour does, an impact that keeps momentum: a wisp's
+/// pressure would else fling it.
+template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, Block<Dim>& b);
 
 } // namespace ballast

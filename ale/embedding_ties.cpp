@@ -2,6 +2,8 @@
 #include "ale/embedding_cells.hpp"
 #include "ale/scene.hpp"
 
+#include "ale/absorbing.hpp"
+#include "ale/embedding_motion.hpp"
 #include "ale/layers/layer_account.hpp"
 #include "ale/layers/layer_edges.hpp"
 
@@ -112,11 +114,6 @@ template <int Dim> void book_wall(Ledger& ledger, const NodeFoot<Dim>& f, double
   }
 }
 
-template <int Dim> std::array<int, 3> node_of(const Grid& g, int row, int index) {
-  const int per = g.node_rows_per_plane(), k = row / per - (Dim == 3 ? g.ghost[2] : 0), j = row % per - g.ghost[1];
-  return {index, j, k};
-}
-
 /// The stack's nodes that carry a foot.
 template <int Dim> void collect_nodes(Scene<Dim>& scene, const Embedding<Dim>& e) {
   std::vector<std::vector<char>> carries(scene.layers.size());
@@ -176,60 +173,11 @@ template <int Dim> void add_along(std::array<RowField, Dim>& field, const NodeFo
   }
 }
 
-/// Beside bodies a node that holds next to nothing moves as its heaviest neighbour does, an impact that keeps momentum: a wisp's
-/// pressure would else fling it.
-template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, Block<Dim>& b) {
-  constexpr double wisp = 1e-3, trace = 1e-9; // of that neighbour's mass; of a cell of the lightest material
-  double lightest = std::numeric_limits<double>::infinity();
-  for (const MaterialSlot& slot : b.materials) {
-    lightest = slot.is_void ? lightest : std::min(lightest, slot.material.density);
-  }
-  const Grid& g = b.grid;
-  for (const NodeFoot<Dim>& f : e.now.feet) {
-    const std::array<int, 3> node = node_of<Dim>(g, f.row, f.index);
-    const double mass = b.node_mass.row(f.row)[f.index];
-    double most = 0;
-    std::array<int, 3> heavy = node;
-    for (int axis = 0; axis < Dim; ++axis) {
-      for (const int side : {-1, 1}) {
-        std::array<int, 3> to = node;
-        to[static_cast<std::size_t>(axis)] += side;
-        const int n = to[static_cast<std::size_t>(axis)];
-        if (n < 0 || n > g.cells[static_cast<std::size_t>(axis)]) {
-          continue;
-        }
-        const double m = b.node_mass.row(g.node_row(to[1], to[2]))[to[0]];
-        if (m > most) {
-          most = m;
-          heavy = to;
-        }
-      }
-    }
-    if (!(mass > 0)) {
-      continue;
-    }
-    const std::array<int, 3> at = {std::min(node[0], g.cells[0] - 1), std::min(node[1], g.cells[1] - 1), Dim == 3 ? std::min(node[2], g.cells[2] - 1) : 0};
-    if (std::max(mass, most) < trace * lightest * b.target_volume.row(g.cell_row(at[1], at[2]))[at[0]]) { // alone: it stops, its momentum in the ledger
-      for (std::size_t d = 0; d < Dim; ++d) {
-        const double u = b.velocity[d].row(f.row)[f.index];
-        scene.ledger.momentum_out[d] += mass * u;
-        scene.ledger.embedded_given -= shift_velocity(b, d, f.row, f.index, -u);
-      }
-      continue;
-    }
-    if (mass > wisp * most) {
-      continue;
-    }
-    const int r = g.node_row(heavy[1], heavy[2]), i = heavy[0];
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const double u = b.velocity[d].row(f.row)[f.index], v = b.velocity[d].row(r)[i];
-      if (held_along(b, node, d) != nullptr || held_along(b, heavy, d) != nullptr) {
-        continue;
-      }
-      const double both = (mass * u + most * v) / (mass + most);
-      scene.ledger.embedded_given -= shift_velocity(b, d, f.row, f.index, both - u) + shift_velocity(b, d, r, i, both - v);
-    }
-  }
+/// An absorbing side's force on a node works on the way that the tie leaves it, not on that which absorb_row booked: the rest of it,
+/// where its speed along the tie changes by `change`.
+template <int Dim> double absorbed_by_tie(const Block<Dim>& b, const NodeFoot<Dim>& f, double change, double dt) {
+  const std::array<double, Dim> force = absorbing_force(b, node_of<Dim>(b.grid, f.row, f.index));
+  return 0.5 * dt * change * dot<Dim>(force, f.tie);
 }
 
 /// Is it the foot of its node, not that on the other side?
@@ -354,6 +302,7 @@ template <int Dim> void follow_layers(Scene<Dim>& scene, Embedding<Dim>& e, doub
     take_off(l.stack, l.load);
     l.ledger.load_work += kinetic_of(l.stack, l.load) - loaded;
   }
+  const bool absorbs = b.boundary.any(BoundaryKind::absorbing);
   double gained = 0; // by the block, of tied nodes and at the surface
   for (const NodeFoot<Dim>& f : e.now.feet) {
     const double mass = b.node_mass.row(f.row)[f.index];
@@ -362,6 +311,7 @@ template <int Dim> void follow_layers(Scene<Dim>& scene, Embedding<Dim>& e, doub
       const double unbound = speed_along<Dim>(b.next_velocity, f);
       const double mean = 0.5 * (mean_along<Dim>(b, b.velocity, b.sliding.jump, f) + mean_along<Dim>(b, b.next_velocity, b.sliding.next_jump, f));
       gained += mass * (then - unbound) * (mean + 0.5 * (then - unbound));
+      scene.ledger.boundary_work += absorbs ? absorbed_by_tie(b, f, then - unbound, dt) : 0.0;
       add_along<Dim>(b.next_velocity, f, then - unbound);
       book_wall(scene.ledger, f, mass * (unbound - then));
       add_along<Dim>(b.next_position, f, 0.5 * dt * (then - unbound));

@@ -1,4 +1,6 @@
 // Traces beside bodies: what is next to nothing in its cell, and what a body has buried.
+#include "ale/embedding_cells.hpp"
+#include "ale/embedding_motion.hpp"
 #include "ale/embedding_pass.hpp"
 
 namespace ballast {
@@ -139,6 +141,62 @@ template <int Dim> void EmbeddedRemap<Dim>::hand_on_wisps() {
   }
 }
 
+template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, Block<Dim>& b) {
+  constexpr double wisp = 1e-3, trace = 1e-9; // of that neighbour's mass; of a cell of the lightest material
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const MaterialSlot& slot : b.materials) {
+    lightest = slot.is_void ? lightest : std::min(lightest, slot.material.density);
+  }
+  const Grid& g = b.grid;
+  for (const NodeFoot<Dim>& f : e.now.feet) {
+    const std::array<int, 3> node = node_of<Dim>(g, f.row, f.index);
+    const double mass = b.node_mass.row(f.row)[f.index];
+    double most = 0;
+    std::array<int, 3> heavy = node;
+    for (int axis = 0; axis < Dim; ++axis) {
+      for (const int side : {-1, 1}) {
+        std::array<int, 3> to = node;
+        to[static_cast<std::size_t>(axis)] += side;
+        const int n = to[static_cast<std::size_t>(axis)];
+        if (n < 0 || n > g.cells[static_cast<std::size_t>(axis)]) {
+          continue;
+        }
+        const double m = b.node_mass.row(g.node_row(to[1], to[2]))[to[0]];
+        if (m > most) {
+          most = m;
+          heavy = to;
+        }
+      }
+    }
+    if (!(mass > 0)) {
+      continue;
+    }
+    const std::array<int, 3> at = {std::min(node[0], g.cells[0] - 1), std::min(node[1], g.cells[1] - 1), Dim == 3 ? std::min(node[2], g.cells[2] - 1) : 0};
+    if (std::max(mass, most) < trace * lightest * b.target_volume.row(g.cell_row(at[1], at[2]))[at[0]]) { // alone: it stops, its momentum in the ledger
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const double u = b.velocity[d].row(f.row)[f.index];
+        scene.ledger.momentum_out[d] += mass * u;
+        scene.ledger.embedded_given -= shift_velocity(b, d, f.row, f.index, -u);
+      }
+      continue;
+    }
+    if (mass > wisp * most) {
+      continue;
+    }
+    const int r = g.node_row(heavy[1], heavy[2]), i = heavy[0];
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double u = b.velocity[d].row(f.row)[f.index], v = b.velocity[d].row(r)[i];
+      if (held_along(b, node, d) != nullptr || held_along(b, heavy, d) != nullptr) {
+        continue;
+      }
+      const double both = (mass * u + most * v) / (mass + most);
+      scene.ledger.embedded_given -= shift_velocity(b, d, f.row, f.index, both - u) + shift_velocity(b, d, r, i, both - v);
+    }
+  }
+}
+
+template void join_wisps<2>(Scene<2>&, const Embedding<2>&, Block<2>&);
+template void join_wisps<3>(Scene<3>&, const Embedding<3>&, Block<3>&);
 template std::size_t EmbeddedRemap<2>::way_out(std::size_t c) const;
 template std::size_t EmbeddedRemap<3>::way_out(std::size_t c) const;
 template void EmbeddedRemap<2>::relieve();

@@ -44,4 +44,15 @@ template <int Dim> struct StepSums {
 /// it. Nodes' new velocities and cells' next_volume must be there.
 template <int Dim> StepSums<Dim> work_pass(Scene<Dim>& scene, Block<Dim>& block, double dt);
 
+/// Velocity component (m/s) of the mass at a node: where what slides meets the rest the node need not move so (remap/mesh.hpp, Sliding).
+template <int Dim>
+double mean_velocity(const Block<Dim>& b, const std::array<RowField, Dim>& velocity, const std::array<RowField, Dim>& jump, std::size_t d, int r, int i) {
+  const double u = velocity[d].row(r)[i], mass = b.node_mass.row(r)[i];
+  if (!b.any_sliding() || !(mass > 0)) {
+    return u;
+  }
+  const double sliding = b.sliding.node_mass.row(r)[i];
+  return u + (sliding / mass - remap::node_follows(sliding, mass)) * jump[d].row(r)[i];
+}
+
 } // namespace ballast
