@@ -225,7 +225,7 @@ void share_volume_change(Closure closure, const CellMotion& motion, MixedCell& c
   }
 }
 
-void stiffen_cold(MixedCell& cell) {
+void stiffen_cold(MixedCell& cell, double reference) {
   constexpr double trace = 1e-12, least = 1e-200; // of the stiffest; Pa, if all are cold
   double most = 0;
   for (int k = 0; k < cell.count; ++k) {
@@ -233,7 +233,10 @@ void stiffen_cold(MixedCell& cell) {
   }
   for (int k = 0; k < cell.count; ++k) {
     MixedCell::Part& p = cell.part[k];
-    p.modulus = p.is_void || p.modulus != 0 ? p.modulus : std::max(trace * most, least);
+    if (!p.is_void) {
+      const double tension = -(p.pressure + reference);
+      p.modulus = p.modulus > 0 || tension > 0 ? std::max(p.modulus, tension) : std::max(trace * most, least);
+    }
   }
 }
 

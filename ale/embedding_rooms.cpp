@@ -280,8 +280,7 @@ template <int Dim> void embedded_volumes(Scene<Dim>& scene, Embedding<Dim>& e) {
     const double moved = kind >= 0 ? 2 * (e.force[static_cast<std::size_t>(kind)].half.volume - e.cut[static_cast<std::size_t>(kind)].open) : 0.0;
     const double most = alone ? held * (1 + largest_jump) : std::max(old + moved, held) + largest_jump * old;
     const double pressed = kind >= 0 ? moved : -old * entered<Dim>(scene, e, b, {i, j, k});
-    // What its nodes and the body do to its room it works on (cut_forces), however overfull it is.
-    const double least = (1 - e.squeeze) * (gap > 0 ? std::min(old + pressed, held) : old + pressed);
+    const double least = (1 - e.squeeze) * std::min(old + pressed, held);
     volume = open > 0 ? std::clamp(open, least, std::max({most, least, gap > 0 ? open : 0.0})) : old;
     if (kind >= 0 && is_sliver(e, b, r, i)) { // as a pure one is; a mixed one's follows
       e.cut[static_cast<std::size_t>(kind)].scaled = volume / old;

@@ -147,7 +147,7 @@ template <int Dim> void mixed_state(Block<Dim>& b, int r, int i, std::vector<dou
       stress[a] += f * std::as_const(slot.store).row(field::stress + static_cast<int>(a), r)[i];
     }
   }
-  stiffen_cold(cell);
+  stiffen_cold(cell, b.reference_pressure);
   const CellPressure cp = mixed_pressure(b.closure, cell, -b.reference_pressure);
   b.pressure.row(r)[i] = cp.pressure;
   b.modulus.row(r)[i] = cp.modulus;

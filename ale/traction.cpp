@@ -88,7 +88,7 @@ template <int Dim> void traction_cell(Block<Dim>& b, int r, int i, const Eigen::
       soft += f / shear_of(slot, r, i);
     }
   }
-  stiffen_cold(cell);
+  stiffen_cold(cell, b.reference_pressure);
   const CellPressure cp = mixed_pressure(b.closure, cell, -b.reference_pressure);
   const double mean = T.trace() / 3;
   b.pressure.row(r)[i] = cp.pressure - mean;

@@ -86,7 +86,7 @@ MixedCell load_mixed(const Block<Dim>& b, int r, int i, double volume, const Eig
       p.modulus += n.squaredNorm() * 4 / 3 * shear_of(slot, r, i);
     }
   }
-  stiffen_cold(cell);
+  stiffen_cold(cell, b.reference_pressure);
   return cell;
 }
 

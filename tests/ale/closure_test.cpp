@@ -84,13 +84,52 @@ TEST_P(EveryClosure, ColdGasBesideMetalIsLikeRoom) {
   c.count = 2;
   c.part[0] = {0, false, 0.6, 5300, 1e3, 1e6, 1.3e11};
   c.part[1] = {1, false, 0.4, 0.48, 0, 0, 0};
-  stiffen_cold(c);
+  stiffen_cold(c, 0);
   const CellMotion m = motion_of(c, -0.01, GetParam());
   EXPECT_TRUE(std::isfinite(m.pressure) && std::isfinite(m.modulus));
   share_volume_change(GetParam(), m, c);
   EXPECT_NEAR(c.part[0].volume_change + c.part[1].volume_change, -0.01, 1e-15);
   EXPECT_TRUE(std::isfinite(c.part[0].work) && std::isfinite(c.part[1].work));
   EXPECT_GT(c.part[1].volume + c.part[1].volume_change, 0);
+}
+
+// A trace of tissue (K' = 7) that the remap leaves beside metal at 8 GPa goes there within a few steps and never beyond.
+TEST(Closure, TraceThatStiffensDoesNotOvershoot) {
+  constexpr double K = 2.6e9, stiffening = 7, start = 2.4e-6;
+  const auto pressure = [&](double volume) { return K / stiffening * (std::pow(start / volume, stiffening) - 1); };
+  double volume = start;
+  const auto cell = [&] {
+    MixedCell c;
+    c.count = 2;
+    c.part[0] = {0, false, volume, 1100 * start, 0, pressure(volume), K + stiffening * pressure(volume)};
+    c.part[1] = {1, false, 1 - volume, 9000, 0, 8e9, 1.8e11};
+    return c;
+  };
+  for (int step = 0; step < 5; ++step) {
+    MixedCell c = cell();
+    share_volume_change(Closure::pressure_relaxation, motion_of(c, 0), c);
+    EXPECT_NEAR(c.part[0].volume_change + c.part[1].volume_change, 0, 1e-16);
+    volume += c.part[0].volume_change;
+    EXPECT_LT(pressure(volume), 1.3 * 8e9);
+  }
+  EXPECT_NEAR(pressure(volume), 8e9, 0.01 * 8e9);
+}
+
+// Stretched beyond what it can bear, it softens: it closes up, and the cell is still what the metal makes it.
+TEST(Closure, StretchedTraceDoesNotSwallowTheCell) {
+  for (const double modulus : {-7.7e8, 0.0, 1e5, 2.4e9}) {
+    MixedCell c;
+    c.count = 2;
+    c.part[0] = {0, false, 1e-6, 1e-10, 0, -2.58e9, modulus};
+    c.part[1] = {1, false, 1 - 1e-6, 9000, 0, 1e9, 1.3e11};
+    stiffen_cold(c, 0);
+    const CellMotion m = motion_of(c, 0);
+    EXPECT_NEAR(m.pressure, 1e9, 1e-3 * 1e9);
+    EXPECT_NEAR(m.modulus, 1.3e11, 1e-3 * 1.3e11);
+    share_volume_change(Closure::pressure_relaxation, m, c);
+    EXPECT_LT(c.part[0].volume_change, 0);
+    EXPECT_GT(c.part[0].volume + c.part[0].volume_change, 0);
+  }
 }
 
 TEST(Closure, VoidAbsorbsCompressionFirst) {
