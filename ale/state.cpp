@@ -54,6 +54,9 @@ void evaluate(MaterialSlot& slot, double reference_pressure, int r, int at, int 
   }
 }
 
+/// Of a solid's density at rest: a trace that a mixed cell has stretched thinner has no shear modulus that would set a step.
+constexpr double thinnest_solid = 0.1;
+
 double stiffness(const MaterialSlot& slot, double modulus, int r, int i) {
   return slot.strength ? modulus + 4.0 / 3.0 * shear_of(slot, r, i) : modulus;
 }
@@ -138,7 +141,8 @@ template <int Dim> void mixed_state(Block<Dim>& b, int r, int i, std::vector<dou
     p.pressure = std::as_const(slot.store).row(slot.pressure_field(), r)[i];
     p.modulus = std::as_const(slot.store).row(slot.modulus_field(), r)[i];
     mass += std::as_const(slot.store).row(field::mass, r)[i];
-    fastest = std::max(fastest, stiffness(slot, p.modulus, r, i) / rho[0]);
+    const double thick = slot.strength ? std::max(rho[0], thinnest_solid * slot.reference.rho) : rho[0];
+    fastest = std::max(fastest, stiffness(slot, p.modulus, r, i) / thick);
     if (slot.strength) {
       shear += f * shear_of(slot, r, i);
       flow += f * std::as_const(slot.store).row(slot.flow_stress_field(), r)[i];
