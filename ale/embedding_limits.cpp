@@ -101,11 +101,8 @@ template <int Dim> static CutLimit limit_cut(const Scene<Dim>& scene, const Embe
   const auto u = corner_velocities<Dim>(g, b.velocity, c.cell);
   const OpenPart<Dim> part = open_part(level_cell<Dim>(g, b.position, e.now, c.cell), b.axisymmetric);
   const double room = std::max(part.volume, b.volume.row(c.row)[i]);
-  // A sliver closes with its root: over a thousandth of a cell's crossing time.
-  const double moment = 1e-3 * c.width / sound;
-  const Pool pool = c.root < 0 ? Pool{room, opening_rate<Dim>(scene, e, c, part, u)}
-                               : pool_of(scene, e, b, c, moment, open_volume(half_way<Dim>(scene, e, b, c, moment, u), b.axisymmetric) - part.volume, room);
-  const double rate = pool.change / pool.volume / (c.root < 0 ? 1 : moment);
+  const Pool pool = pool_of(scene, e, b, c, 1.0, opening_rate<Dim>(scene, e, c, part, u), room); // a sliver closes with its root; a second's change: the rate
+  const double rate = pool.change / pool.volume;
   double active = 0;
   if (rate < 0) {
     const double across = c.width * std::min(1.0, pool.volume / c.whole); // what is thin closes fast for little speed

@@ -103,7 +103,8 @@ template <int Dim> Pool pool_of(const Scene<Dim>& scene, const Embedding<Dim>& e
     }
     const auto u = corner_velocities<Dim>(b.grid, b.velocity, c.root_cell);
     pool.volume += b.volume.row(r)[c.root_cell[0]];
-    pool.change += open_volume(half_way<Dim>(scene, e, b, root, half, u), b.axisymmetric) - open_volume(half_way<Dim>(scene, e, b, root, 0, u), b.axisymmetric);
+    // By its rate: where a corner comes to the surface while the opposite one is out, too, the open part jumps by what lies between them.
+    pool.change += half * opening_rate<Dim>(scene, e, root, open_part(level_cell<Dim>(b.grid, b.position, e.now, c.root_cell), b.axisymmetric), u);
   }
   return pool;
 }

@@ -141,11 +141,42 @@ template <int Dim> void EmbeddedRemap<Dim>::hand_on_wisps() {
   }
 }
 
+namespace {
+
+/// What is at a node stops; its momentum and energy go to the ledger.
+template <int Dim> void stop_node(Ledger& ledger, Block<Dim>& b, int r, int i) {
+  const double mass = b.node_mass.row(r)[i], slides = b.any_sliding() ? b.sliding.node_mass.row(r)[i] : 0.0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const double v = velocity_of(b, true, d, r, i), u = velocity_of(b, false, d, r, i);
+    ledger.momentum_out[d] += slides * v + (mass - slides) * u;
+    ledger.embedded_given += 0.5 * (slides * v * v + (mass - slides) * u * u);
+    b.velocity[d].row(r)[i] = 0;
+    if (b.any_sliding()) {
+      b.sliding.jump[d].row(r)[i] = 0;
+    }
+  }
+}
+
+/// m2/s2, of the faster of the two that meet at a node.
+template <int Dim> double fastest_square(const Block<Dim>& b, int r, int i) {
+  double square[2] = {0, 0};
+  for (const bool slides : {false, true}) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double v = velocity_of(b, slides, d, r, i);
+      square[slides ? 1 : 0] += v * v;
+    }
+  }
+  return std::max(square[0], square[1]);
+}
+
+} // namespace
+
 template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, Block<Dim>& b) {
-  constexpr double wisp = 1e-3, trace = 1e-9; // of that neighbour's mass; of a cell of the lightest material
-  double lightest = std::numeric_limits<double>::infinity();
+  constexpr double wisp = 1e-3, trace = 1e-9, flung = 1e-6; // of that neighbour's mass; of a cell of the lightest material
+  double lightest = std::numeric_limits<double>::infinity(), sound = 0; // kg/m3; m2/s2, of the fastest material at the start
   for (const MaterialSlot& slot : b.materials) {
     lightest = slot.is_void ? lightest : std::min(lightest, slot.material.density);
+    sound = slot.is_void ? sound : std::max(sound, sound_speed_squared(slot.material.eos, slot.reference.rho, slot.reference.e));
   }
   const Grid& g = b.grid;
   for (const NodeFoot<Dim>& f : e.now.feet) {
@@ -172,12 +203,9 @@ template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, B
       continue;
     }
     const std::array<int, 3> at = {std::min(node[0], g.cells[0] - 1), std::min(node[1], g.cells[1] - 1), Dim == 3 ? std::min(node[2], g.cells[2] - 1) : 0};
-    if (std::max(mass, most) < trace * lightest * b.target_volume.row(g.cell_row(at[1], at[2]))[at[0]]) { // alone: it stops, its momentum in the ledger
-      for (std::size_t d = 0; d < Dim; ++d) {
-        const double u = b.velocity[d].row(f.row)[f.index];
-        scene.ledger.momentum_out[d] += mass * u;
-        scene.ledger.embedded_given -= shift_velocity(b, d, f.row, f.index, -u);
-      }
+    const double whole = lightest * b.target_volume.row(g.cell_row(at[1], at[2]))[at[0]];
+    if (std::max(mass, most) < trace * whole || (mass < flung * whole && fastest_square(b, f.row, f.index) > sound)) { // alone, or faster than sound anywhere
+      stop_node(scene.ledger, b, f.row, f.index);
       continue;
     }
     if (mass > wisp * most) {
