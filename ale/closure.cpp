@@ -126,24 +126,19 @@ double yields(double x) {
   return x <= linear ? x : linear + (1 - linear) * (1 - std::pow(1 + stiffening * (x - linear) / (1 - linear), -1 / stiffening));
 }
 
-/// What stiffens gives up less; the others take that by compliance, so that the exchanged volumes still sum to nothing. Where it is most
-/// of the compliance (a gas beside metal and tissue) the others must not pay for it: all exchange less.
+/// What stiffens gives up less; the others take that by compliance, so that the exchanged volumes still sum to nothing.
 void stiffen(MixedCell& cell, const double* r, double* exchange) {
-  double excess = 0, compliance = 0, stiff = 0, least = 1;
+  double excess = 0, compliance = 0;
   bool stiffened[max_materials_in_cell] = {};
-  double asked_of[max_materials_in_cell];
-  std::copy(exchange, exchange + cell.count, asked_of);
   for (int k = 0; k < cell.count; ++k) {
     const double asked = -exchange[k] / cell.part[k].volume, given = std::min(yields(asked), largest_part);
     stiffened[k] = given < asked;
     excess += stiffened[k] ? (asked - given) * cell.part[k].volume : 0.0;
     exchange[k] += stiffened[k] ? (asked - given) * cell.part[k].volume : 0.0;
     compliance += stiffened[k] ? 0.0 : r[k];
-    stiff += stiffened[k] ? r[k] : 0.0;
-    least = stiffened[k] ? std::min(least, given / asked) : least;
   }
   for (int k = 0; k < cell.count && excess > 0; ++k) {
-    exchange[k] = stiff > compliance ? least * asked_of[k] : exchange[k] - (stiffened[k] ? 0.0 : excess * r[k] / compliance);
+    exchange[k] -= stiffened[k] ? 0.0 : excess * r[k] / compliance;
   }
 }
 
@@ -240,7 +235,7 @@ void stiffen_cold(MixedCell& cell, double reference) {
     MixedCell::Part& p = cell.part[k];
     if (!p.is_void) {
       const double tension = -(p.pressure + reference);
-      p.modulus = p.modulus > 0 ? std::max(p.modulus, tension) : std::max({tension, trace * most, least});
+      p.modulus = p.modulus > 0 || tension > 0 ? std::max(p.modulus, tension) : std::max(trace * most, least);
     }
   }
 }
