@@ -14,16 +14,31 @@ MixedCell::Part* void_part(MixedCell& cell) {
   return last && last->is_void && last->volume > 0 ? last : nullptr;
 }
 
-/// No material changes its volume by more than largest_part of it in a step: what a soft one (a gas beside
-/// metal) cannot take, the others take by compliance. A capped one does the work of its own mean pressure,
+/// Share of its volume that a material gives up where its first modulus says x. It stiffens as it goes, as
+/// liquids do (Murnaghan, K' = 7): by its first modulus a trace of tissue beside metal at 8 GPa would end at 150.
+double yields(double x) {
+  constexpr double stiffening = 7, linear = 0.02; // K'; of its volume, to where results do not tell
+  return x <= linear ? x : linear + (1 - linear) * (1 - std::pow(1 + stiffening * (x - linear) / (1 - linear), -1 / stiffening));
+}
+
+/// No material changes its volume by more than largest_part of it in a step, and what has the less of the compliance shrinks as it
+/// stiffens (a gas that has most of it must yield first): what a soft one cannot take, the others take by compliance. A capped one does the work of its own mean pressure,
 /// p - K/2 dV/V; the others take the rest, so volume and energy still sum exactly.
 void cap_changes(MixedCell& cell) {
   bool capped[max_materials_in_cell] = {};
+  double soft = 0; // m3/Pa, all of it
+  for (int k = 0; k < cell.count; ++k) {
+    soft += cell.part[k].is_void ? 0 : cell.part[k].volume / cell.part[k].modulus;
+  }
+  const auto may_change = [&](const MixedCell::Part& p) {
+    const bool stiffens = p.volume_change < 0 && p.volume / p.modulus < 0.5 * soft;
+    return p.volume * (stiffens ? std::min(yields(-p.volume_change / p.volume), largest_part) : largest_part);
+  };
   for (int pass = 0; pass < cell.count; ++pass) {
     double volume = 0, work = 0, slack = 0, compliance = 0;
     for (int k = 0; k < cell.count; ++k) {
       MixedCell::Part& p = cell.part[k];
-      const double most = largest_part * p.volume;
+      const double most = p.is_void ? 0.0 : may_change(p);
       if (!p.is_void && !capped[k] && std::abs(p.volume_change) > most * (1 + 1e-12)) {
         const double change = std::copysign(most, p.volume_change);
         const double own = -(p.pressure - 0.5 * p.modulus * change / p.volume) * change;
@@ -119,29 +134,6 @@ double limited(const MixedCell& cell, const double* exchange) {
   return a;
 }
 
-/// Share of its volume that a material gives up on its way to a pressure x of its modulus above its own. It stiffens as it goes, as
-/// liquids do (Murnaghan, K' = 7): by its first modulus a trace of tissue beside metal at 8 GPa would end at 150.
-double yields(double x) {
-  constexpr double stiffening = 7, linear = 0.02; // K'; of its volume, to where results do not tell
-  return x <= linear ? x : linear + (1 - linear) * (1 - std::pow(1 + stiffening * (x - linear) / (1 - linear), -1 / stiffening));
-}
-
-/// What stiffens gives up less; the others take that by compliance, so that the exchanged volumes still sum to nothing.
-void stiffen(MixedCell& cell, const double* r, double* exchange) {
-  double excess = 0, compliance = 0;
-  bool stiffened[max_materials_in_cell] = {};
-  for (int k = 0; k < cell.count; ++k) {
-    const double asked = -exchange[k] / cell.part[k].volume, given = std::min(yields(asked), largest_part);
-    stiffened[k] = given < asked;
-    excess += stiffened[k] ? (asked - given) * cell.part[k].volume : 0.0;
-    exchange[k] += stiffened[k] ? (asked - given) * cell.part[k].volume : 0.0;
-    compliance += stiffened[k] ? 0.0 : r[k];
-  }
-  for (int k = 0; k < cell.count && excess > 0; ++k) {
-    exchange[k] -= stiffened[k] ? 0.0 : excess * r[k] / compliance;
-  }
-}
-
 void relax(const CellMotion& m, MixedCell& cell) {
   double r[max_materials_in_cell], sum = 0, weighted = 0;
   for (int k = 0; k < cell.count; ++k) {
@@ -154,7 +146,6 @@ void relax(const CellMotion& m, MixedCell& cell) {
   for (int k = 0; k < cell.count; ++k) {
     exchange[k] = r[k] * (cell.part[k].pressure - mean);
   }
-  stiffen(cell, r, exchange);
   const double a = limited(cell, exchange);
   for (int k = 0; k < cell.count; ++k) {
     MixedCell::Part& p = cell.part[k];
@@ -234,8 +225,7 @@ void stiffen_cold(MixedCell& cell, double reference) {
   for (int k = 0; k < cell.count; ++k) {
     MixedCell::Part& p = cell.part[k];
     if (!p.is_void) {
-      const double tension = -(p.pressure + reference);
-      p.modulus = p.modulus > 0 || tension > 0 ? std::max(p.modulus, tension) : std::max(trace * most, least);
+      p.modulus = std::max({p.modulus, std::abs(p.pressure + reference), p.modulus > 0 ? 0.0 : trace * most, least});
     }
   }
 }

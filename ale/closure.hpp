@@ -40,8 +40,8 @@ struct CellMotion {
 void share_volume_change(Closure closure, const CellMotion& motion, MixedCell& cell);
 
 /// Gives a cold gas (p = K = 0) beside others a trace of their stiffness: without any its share of a change would be infinite. What is
-/// stretched so far that it softens (K below its tension; `reference`, Pa: what pressures are taken against) is as stiff as it pulls: it
-/// closes up again, where with a K near or below nothing it would swallow the cell.
+/// stretched, or pressed past its equation of state's pole, so far that K is below its pressure (absolute; `reference`, Pa: what
+/// pressures are taken against) is as stiff as it pulls or pushes: with a K near or below nothing it would swallow the cell.
 void stiffen_cold(MixedCell& cell, double reference);
 
 /// Cell pressure sum beta_k p_k and modulus 1 / sum R_k; with equal strain sum f_k p_k and sum f_k K_k; with void: the void's own.

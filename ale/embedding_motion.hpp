@@ -110,7 +110,7 @@ template <int Dim> Pool pool_of(const Scene<Dim>& scene, const Embedding<Dim>& e
 }
 
 /// Beside bodies a node that holds next to nothing moves as its heaviest neighbour does, an impact that keeps momentum: a wisp's
-/// pressure would else fling it.
+/// pressure would else fling it. What has no one to join and is alone, or a trace thrice as fast as sound anywhere, stops.
 template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, Block<Dim>& b);
 
 } // namespace ballast

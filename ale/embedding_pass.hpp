@@ -8,13 +8,30 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace ballast {
 
-/// Everything a cell holds, extensive: by material its volume and, but for void, mass and mass x intensives.
-struct Contents {
-  std::vector<double> x;
+/// Everything that cells hold, extensive: by cell and material its volume and, but for void, mass and mass x intensives.
+class Contents {
+public:
+  /// Nothing, in `cells` of them.
+  void assign(std::size_t cells, int size) {
+    size_ = static_cast<std::size_t>(size);
+    x_.assign(cells * size_, 0.0);
+  }
+  /// One more, that holds nothing.
+  std::span<double> add() {
+    x_.resize(x_.size() + size_, 0.0);
+    return {x_.data() + x_.size() - size_, size_};
+  }
+  std::span<double> operator[](std::size_t c) { return {x_.data() + c * size_, size_}; }
+  std::span<const double> operator[](std::size_t c) const { return {x_.data() + c * size_, size_}; }
+
+private:
+  std::size_t size_ = 0;
+  std::vector<double> x_;
 };
 
 template <int Dim> class EmbeddedRemap {
@@ -51,8 +68,8 @@ private:
     }
     return in;
   }
-  double at(std::size_t c, int material, int field) const { return contents_[c].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(material)] + field)]; }
-  double& at(std::size_t c, int material, int field) { return contents_[c].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(material)] + field)]; }
+  double at(std::size_t c, int material, int field) const { return contents_[c][static_cast<std::size_t>(offset_[static_cast<std::size_t>(material)] + field)]; }
+  double& at(std::size_t c, int material, int field) { return contents_[c][static_cast<std::size_t>(offset_[static_cast<std::size_t>(material)] + field)]; }
   int materials() const { return static_cast<int>(b_.materials.size()); }
   int fields(int m) const { return b_.materials[static_cast<std::size_t>(m)].is_void ? 1 : b_.materials[static_cast<std::size_t>(m)].store.conserved(); }
   bool is_void(int m) const { return b_.materials[static_cast<std::size_t>(m)].is_void; }
@@ -129,9 +146,9 @@ private:
   double crossing(int axis, const std::array<int, 3>& above) const;
 
   /// Volumes by material of `volume` leaving a cell by its high or low end along an axis.
-  void split(std::size_t c, std::size_t axis, bool high, double volume, std::vector<double>& out) const;
+  void split(std::size_t c, std::size_t axis, bool high, double volume, std::span<double> out) const;
 
-  void pool_contents(const std::vector<int>& root, std::vector<Contents>& pool, std::vector<char>& pooled) const;
+  void pool_contents(const std::vector<int>& root, Contents& pool, std::vector<char>& pooled) const;
 
   void move_through_faces();
 
@@ -201,7 +218,7 @@ private:
   std::vector<char> special_;
   std::vector<int> place_;
   std::vector<std::array<int, 3>> cells_;
-  std::vector<Contents> contents_, start_, pool_;
+  Contents contents_, start_, pool_;
   std::vector<char> pooled_, touched_;
   std::vector<double> from_volume_, to_volume_, swept_;
   std::vector<int> root_, next_root_, side_;

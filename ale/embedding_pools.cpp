@@ -32,23 +32,22 @@ template <int Dim> void EmbeddedRemap<Dim>::pool() {
   e_.now = std::move(levels_[0]);
 }
 
-template <int Dim> void EmbeddedRemap<Dim>::pool_contents(const std::vector<int>& root, std::vector<Contents>& pool, std::vector<char>& pooled) const {
-  pool.assign(cells_.size(), Contents{});
+template <int Dim> void EmbeddedRemap<Dim>::pool_contents(const std::vector<int>& root, Contents& pool, std::vector<char>& pooled) const {
+  pool.assign(cells_.size(), size_);
   pooled.assign(cells_.size(), 0);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     const auto q = static_cast<std::size_t>(root[c]);
-    if (pool[q].x.empty()) {
-      pool[q].x.assign(static_cast<std::size_t>(size_), 0.0);
-    }
-    for (std::size_t n = 0; n < contents_[c].x.size(); ++n) {
-      pool[q].x[n] += contents_[c].x[n];
+    const std::span<double> all = pool[q];
+    const std::span<const double> own = contents_[c];
+    for (std::size_t n = 0; n < own.size(); ++n) {
+      all[n] += own[n];
     }
     pooled[q] = q != c ? 1 : pooled[q];
   }
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::settle() {
-  std::vector<Contents> pool;
+  Contents pool;
   std::vector<char> pooled;
   pool_contents(root_, pool, pooled);
   std::vector<std::array<double, 2>> before(cells_.size());
@@ -70,7 +69,7 @@ template <int Dim> void EmbeddedRemap<Dim>::settle() {
       }
       const double share = volume[root] > 0 ? std::max(at(c, m, 0), 0.0) / volume[root] : (c == root ? 1.0 : 0.0);
       for (int f = 0; f < fields(m); ++f) {
-        at(c, m, f) = share * pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)] + f)];
+        at(c, m, f) = share * pool[root][static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)] + f)];
       }
     }
   }
@@ -105,9 +104,10 @@ template <int Dim> void EmbeddedRemap<Dim>::bury() {
       continue;
     }
     const std::array<double, 2> before = masses_of(c);
-    for (std::size_t n = 0; n < contents_[c].x.size(); ++n) {
-      contents_[root].x[n] += contents_[c].x[n];
-      contents_[c].x[n] = 0;
+    const std::span<double> from = contents_[c], into = contents_[root];
+    for (std::size_t n = 0; n < from.size(); ++n) {
+      into[n] += from[n];
+      from[n] = 0;
     }
     if (mass != 0) {
       transfer_change(c, root, before);
@@ -157,7 +157,7 @@ template <int Dim> void EmbeddedRemap<Dim>::give_room(std::size_t root, const st
 }
 
 template <int Dim> void EmbeddedRemap<Dim>::equalise() {
-  std::vector<Contents> pool;
+  Contents pool;
   std::vector<char> pooled;
   pool_contents(next_root_, pool, pooled);
   std::vector<std::vector<std::size_t>> members_of(cells_.size());
@@ -189,12 +189,12 @@ template <int Dim> void EmbeddedRemap<Dim>::equalise() {
     // The materials' volumes in the pool, void what is left of its room: more room than they fill is not theirs.
     double held = 0, rooms = 0;
     for (int m = 0; m < materials(); ++m) {
-      held += is_void(m) ? 0.0 : std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
+      held += is_void(m) ? 0.0 : std::max(pool[root][static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
     }
     for (const std::size_t c : members) {
       rooms += room(c);
     }
-    const double gap = pool[root].x[static_cast<std::size_t>(offset_.back())];
+    const double gap = pool[root][static_cast<std::size_t>(offset_.back())];
     const bool full = held > rooms || (!(gap > 1e-9 * rooms) && held > largest_stretch * rooms);
     const double scale = full ? rooms / held : 1.0, hollow = full ? 0.0 : rooms - held;
     std::vector<std::array<double, 2>> before;
@@ -202,7 +202,7 @@ template <int Dim> void EmbeddedRemap<Dim>::equalise() {
       before.push_back(masses_of(c));
       if (!valid) {
         for (int m = 0; m < materials(); ++m) {
-          const double v = is_void(m) ? hollow : scale * std::max(pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
+          const double v = is_void(m) ? hollow : scale * std::max(pool[root][static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
           at(c, m, 0) = rooms > 0 ? v / rooms * room(c) : 0.0;
         }
       }
@@ -218,7 +218,7 @@ template <int Dim> void EmbeddedRemap<Dim>::equalise() {
       for (const std::size_t c : members) {
         const double share = volume > 0 ? fitted(c, m) / volume : (c == root ? 1.0 : 0.0);
         for (int f = 1; f < fields(m); ++f) {
-          at(c, m, f) = share * pool[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)] + f)];
+          at(c, m, f) = share * pool[root][static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)] + f)];
         }
       }
     }
@@ -248,7 +248,7 @@ template <int Dim> double EmbeddedRemap<Dim>::fitted(std::size_t c, int m) const
 template <int Dim> void EmbeddedRemap<Dim>::scatter() {
   e_.pockets.clear();
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    if (contents_[c].x == start_[c].x && room(c) == from_volume_[c]) {
+    if (std::ranges::equal(std::as_const(contents_)[c], std::as_const(start_)[c]) && room(c) == from_volume_[c]) {
       keep_room(c);
       continue;
     }
@@ -311,8 +311,8 @@ template <int Dim> void EmbeddedRemap<Dim>::settle_round_off(int r, int i) {
 
 template void EmbeddedRemap<2>::pool();
 template void EmbeddedRemap<3>::pool();
-template void EmbeddedRemap<2>::pool_contents(const std::vector<int>& root, std::vector<Contents>& pool, std::vector<char>& pooled) const;
-template void EmbeddedRemap<3>::pool_contents(const std::vector<int>& root, std::vector<Contents>& pool, std::vector<char>& pooled) const;
+template void EmbeddedRemap<2>::pool_contents(const std::vector<int>& root, Contents& pool, std::vector<char>& pooled) const;
+template void EmbeddedRemap<3>::pool_contents(const std::vector<int>& root, Contents& pool, std::vector<char>& pooled) const;
 template void EmbeddedRemap<2>::settle();
 template void EmbeddedRemap<3>::settle();
 template void EmbeddedRemap<2>::keep_pools();

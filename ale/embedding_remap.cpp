@@ -111,24 +111,25 @@ template <int Dim> bool EmbeddedRemap<Dim>::holds_anything(const std::array<int,
 
 template <int Dim> void EmbeddedRemap<Dim>::gather() {
   touched_.clear();
+  contents_.assign(0, size_);
   for (const std::array<int, 3>& c : cells_) {
     touched_.push_back(0);
     const int r = g_.cell_row(c[1], c[2]), i = c[0];
     const bool special = special_[dense(c)] != 0;
     const double volume = b_.volume.row(r)[i];
     const bool covered = lag_.kind[dense(c)] == covered_cell;
-    Contents now{std::vector<double>(static_cast<std::size_t>(size_), 0.0)};
+    const std::span<double> now = contents_.add();
     bool holds = false;
     for (int m = 0; m < materials(); ++m) {
       const MaterialSlot& slot = b_.materials[static_cast<std::size_t>(m)];
       const auto first = static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)]);
-      now.x[first] = slot.store.row(field::fraction, r)[i] * volume;
+      now[first] = slot.store.row(field::fraction, r)[i] * volume;
       if (!slot.is_void) {
         const double mass = slot.store.row(field::mass, r)[i];
         holds = holds || mass > 0;
-        now.x[first + 1] = mass;
+        now[first + 1] = mass;
         for (int f = 2; f < slot.store.conserved(); ++f) {
-          now.x[first + static_cast<std::size_t>(f)] = mass * slot.store.row(f, r)[i];
+          now[first + static_cast<std::size_t>(f)] = mass * slot.store.row(f, r)[i];
         }
       }
     }
@@ -137,21 +138,20 @@ template <int Dim> void EmbeddedRemap<Dim>::gather() {
       const double scaled = e_.cut[static_cast<std::size_t>(was)].scaled;
       double left = volume;
       for (int m = 0; m + 1 < materials(); ++m) {
-        double& v = now.x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])];
+        double& v = now[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])];
         v /= scaled;
         left -= v;
       }
-      now.x.back() = left;
+      now.back() = left;
       touched_.back() = 1; // nothing is as it was, even where that leaves a pool alike
     }
     if (covered && !holds) {
-      now.x.back() = 0; // the void of a covered cell is no room
+      now.back() = 0; // the void of a covered cell is no room
     }
     side_.push_back(find_side(c));
     from_volume_.push_back(covered && !holds ? 0.0 : volume);
     to_volume_.push_back(special ? open_of(target_, c) : 0.0);
     swept_.push_back(0);
-    contents_.push_back(std::move(now));
   }
   start_ = contents_;
   transfer_.clear();
@@ -222,16 +222,15 @@ template <int Dim> void EmbeddedRemap<Dim>::find_roots(const Config& config, con
   }
 }
 
-template <int Dim> void EmbeddedRemap<Dim>::split(std::size_t c, std::size_t axis, bool high, double volume, std::vector<double>& out) const {
-  out.assign(static_cast<std::size_t>(materials()), 0.0);
+template <int Dim> void EmbeddedRemap<Dim>::split(std::size_t c, std::size_t axis, bool high, double volume, std::span<double> out) const {
   const auto root = static_cast<std::size_t>(root_[c]);
   if (root != c) { // a sliver gives of its pool's mixture
     double all = 0;
     for (int m = 0; m < materials(); ++m) {
-      all += std::max(pool_[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
+      all += std::max(pool_[root][static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0);
     }
     for (int m = 0; m < materials() && all > 0; ++m) {
-      out[static_cast<std::size_t>(m)] = volume * std::max(pool_[root].x[static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0) / all;
+      out[static_cast<std::size_t>(m)] = volume * std::max(pool_[root][static_cast<std::size_t>(offset_[static_cast<std::size_t>(m)])], 0.0) / all;
     }
     return;
   }
@@ -257,9 +256,10 @@ template <int Dim> void EmbeddedRemap<Dim>::move_through_faces() {
   pool_contents(root_, pool_, pooled_);
   struct Crossing {
     std::size_t from, to;
-    std::vector<double> volume;
   };
+  const auto count = static_cast<std::size_t>(materials());
   std::vector<Crossing> crossings;
+  std::vector<double> volume; // by crossing and material
   for (std::size_t low = 0; low < cells_.size(); ++low) {
     for (std::size_t axis = 0; axis < Dim; ++axis) {
       std::array<int, 3> above = cells_[low];
@@ -272,32 +272,34 @@ template <int Dim> void EmbeddedRemap<Dim>::move_through_faces() {
       swept_[low] -= t;
       swept_[high] += t;
       if (t != 0) {
-        crossings.push_back({t > 0 ? low : high, t > 0 ? high : low, {}});
-        split(crossings.back().from, axis, t > 0, std::abs(t), crossings.back().volume);
+        crossings.push_back({t > 0 ? low : high, t > 0 ? high : low});
+        volume.resize(volume.size() + count, 0.0);
+        split(crossings.back().from, axis, t > 0, std::abs(t), std::span(volume).last(count));
       }
     }
   }
   // No cell of its own gives more of a material than it has.
-  std::vector<std::vector<double>> given(cells_.size(), std::vector<double>(static_cast<std::size_t>(materials()), 0.0));
-  for (const Crossing& x : crossings) {
-    for (std::size_t m = 0; m < x.volume.size(); ++m) {
-      given[static_cast<std::size_t>(root_[x.from])][m] += x.volume[m];
+  std::vector<double> given(cells_.size() * count, 0.0);
+  for (std::size_t n = 0; n < crossings.size(); ++n) {
+    for (std::size_t m = 0; m < count; ++m) {
+      given[static_cast<std::size_t>(root_[crossings[n].from]) * count + m] += volume[n * count + m];
     }
   }
-  for (const Crossing& x : crossings) {
+  for (std::size_t n = 0; n < crossings.size(); ++n) {
+    const Crossing& x = crossings[n];
     const auto root = static_cast<std::size_t>(root_[x.from]);
     for (int m = 0; m < materials(); ++m) {
       const auto mm = static_cast<std::size_t>(m);
       const auto first = static_cast<std::size_t>(offset_[mm]);
-      const double held = pool_[root].x[first];
-      const double v = given[root][mm] > held ? x.volume[mm] * std::max(held, 0.0) / given[root][mm] : x.volume[mm];
+      const double held = pool_[root][first];
+      const double asked = volume[n * count + mm], all = given[root * count + mm], v = all > held ? asked * std::max(held, 0.0) / all : asked;
       if (!(v > 0)) {
         continue;
       }
       const double share = v / held;
       double mass = 0;
       for (int f = 0; f < fields(m); ++f) {
-        const double amount = pool_[root].x[first + static_cast<std::size_t>(f)] * share;
+        const double amount = pool_[root][first + static_cast<std::size_t>(f)] * share;
         at(x.from, m, f) -= amount;
         at(x.to, m, f) += amount;
         mass = f == 1 ? amount : mass;

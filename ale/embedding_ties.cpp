@@ -83,7 +83,8 @@ template <int Dim> bool find_tie(const Block<Dim>& b, const std::array<int, 3>& 
   for (int axis = 0; axis < Dim; ++axis) {
     for (int side = 0; side < 2; ++side) {
       const int at = side == 0 ? 0 : b.grid.cells[static_cast<std::size_t>(axis)], component = b.boundary.normal_of(axis, side);
-      if (node[static_cast<std::size_t>(axis)] == at && component >= 0 && b.boundary.fixes_normal_velocity(axis, side)) {
+      const bool holds = b.boundary.fixes_normal_velocity(axis, side) || b.boundary.at(axis, side).kind == BoundaryKind::outflow; // what flows out goes as characteristics say
+      if (node[static_cast<std::size_t>(axis)] == at && component >= 0 && holds) {
         f.tie[static_cast<std::size_t>(component)] = 0;
         wall = true;
       }

@@ -143,10 +143,13 @@ template <int Dim> void EmbeddedRemap<Dim>::hand_on_wisps() {
 
 namespace {
 
-/// What is at a node stops; its momentum and energy go to the ledger.
-template <int Dim> void stop_node(Ledger& ledger, Block<Dim>& b, int r, int i) {
+/// What is at a node stops, but for what a wall makes it do; its momentum and energy go to the ledger.
+template <int Dim> void stop_node(Ledger& ledger, Block<Dim>& b, const std::array<int, 3>& node, int r, int i) {
   const double mass = b.node_mass.row(r)[i], slides = b.any_sliding() ? b.sliding.node_mass.row(r)[i] : 0.0;
   for (std::size_t d = 0; d < Dim; ++d) {
+    if (held_along(b, node, d) != nullptr) {
+      continue;
+    }
     const double v = velocity_of(b, true, d, r, i), u = velocity_of(b, false, d, r, i);
     ledger.momentum_out[d] += slides * v + (mass - slides) * u;
     ledger.embedded_given += 0.5 * (slides * v * v + (mass - slides) * u * u);
@@ -157,13 +160,13 @@ template <int Dim> void stop_node(Ledger& ledger, Block<Dim>& b, int r, int i) {
   }
 }
 
-/// m2/s2, of the faster of the two that meet at a node.
-template <int Dim> double fastest_square(const Block<Dim>& b, int r, int i) {
+/// m2/s2, of the faster of the two that meet at a node; of what no wall makes it do.
+template <int Dim> double fastest_square(const Block<Dim>& b, const std::array<int, 3>& node, int r, int i) {
   double square[2] = {0, 0};
   for (const bool slides : {false, true}) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const double v = velocity_of(b, slides, d, r, i);
-      square[slides ? 1 : 0] += v * v;
+      square[slides ? 1 : 0] += held_along(b, node, d) != nullptr ? 0.0 : v * v;
     }
   }
   return std::max(square[0], square[1]);
@@ -173,6 +176,7 @@ template <int Dim> double fastest_square(const Block<Dim>& b, int r, int i) {
 
 template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, Block<Dim>& b) {
   constexpr double wisp = 1e-3, trace = 1e-9, flung = 1e-6; // of that neighbour's mass; of a cell of the lightest material
+  constexpr double beyond = 3; // times the sound speed of the fastest material: no body flies so fast
   double lightest = std::numeric_limits<double>::infinity(), sound = 0; // kg/m3; m2/s2, of the fastest material at the start
   for (const MaterialSlot& slot : b.materials) {
     lightest = slot.is_void ? lightest : std::min(lightest, slot.material.density);
@@ -204,11 +208,14 @@ template <int Dim> void join_wisps(Scene<Dim>& scene, const Embedding<Dim>& e, B
     }
     const std::array<int, 3> at = {std::min(node[0], g.cells[0] - 1), std::min(node[1], g.cells[1] - 1), Dim == 3 ? std::min(node[2], g.cells[2] - 1) : 0};
     const double whole = lightest * b.target_volume.row(g.cell_row(at[1], at[2]))[at[0]];
-    if (std::max(mass, most) < trace * whole || (mass < flung * whole && fastest_square(b, f.row, f.index) > sound)) { // alone, or faster than sound anywhere
-      stop_node(scene.ledger, b, f.row, f.index);
+    if (std::max(mass, most) < trace * whole) { // alone
+      stop_node(scene.ledger, b, node, f.row, f.index);
       continue;
     }
     if (mass > wisp * most) {
+      if (mass < flung * whole && fastest_square(b, node, f.row, f.index) > beyond * beyond * sound) {
+        stop_node(scene.ledger, b, node, f.row, f.index);
+      }
       continue;
     }
     const int r = g.node_row(heavy[1], heavy[2]), i = heavy[0];

@@ -2,6 +2,7 @@
 
 #include "ale/block_surface.hpp"
 #include "ale/embedding.hpp"
+#include "ale/layers/layer_erosion.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -12,12 +13,6 @@
 namespace ballast {
 
 namespace {
-
-template <int Dim> bool has_hole(const LayerStack<Dim>& stack, int layer) {
-  const LayerGrid& g = stack.grid;
-  const auto begin = stack.alive.begin() + static_cast<std::ptrdiff_t>(stack.element(0, 0, layer * g.through));
-  return std::find(begin, begin + g.through * g.elements[0] * g.elements[1], 0) != begin + g.through * g.elements[0] * g.elements[1];
-}
 
 /// The layers that a block may meet: the nearest, and those behind a layer with holes. From below if the stack lies above it.
 template <int Dim> std::vector<char> exposed(const LayerStack<Dim>& stack, bool above) {

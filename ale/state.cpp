@@ -141,8 +141,7 @@ template <int Dim> void mixed_state(Block<Dim>& b, int r, int i, std::vector<dou
     p.pressure = std::as_const(slot.store).row(slot.pressure_field(), r)[i];
     p.modulus = std::as_const(slot.store).row(slot.modulus_field(), r)[i];
     mass += std::as_const(slot.store).row(field::mass, r)[i];
-    const double thick = slot.strength ? std::max(rho[0], thinnest_solid * slot.reference.rho) : rho[0];
-    fastest = std::max(fastest, stiffness(slot, p.modulus, r, i) / thick);
+    fastest = std::max(fastest, p.modulus / rho[0] + (stiffness(slot, p.modulus, r, i) - p.modulus) / std::max(rho[0], thinnest_solid * slot.reference.rho));
     if (slot.strength) {
       shear += f * shear_of(slot, r, i);
       flow += f * std::as_const(slot.store).row(slot.flow_stress_field(), r)[i];

@@ -79,7 +79,8 @@ template <int Dim> std::vector<double> pack(const Layers<Dim>& l) {
   return {g.edge_work, g.contact_loss, g.friction_loss, g.eroded_energy, g.edge_impulse[0], g.edge_impulse[1], g.edge_impulse[2],
           static_cast<double>(g.eroded_elements), static_cast<double>(g.crushed), g.deepest, g.edge_loss, g.step_change, l.stack.step, l.closing,
           static_cast<double>(l.steps), static_cast<double>(l.slidelines.steps), static_cast<double>(l.slidelines.pairs.size()), static_cast<double>(l.with_blocks.size()),
-          static_cast<double>(g.turned_over), static_cast<double>(g.behind), g.load_work, static_cast<double>(l.with_stacks.size())};
+          static_cast<double>(g.turned_over), static_cast<double>(g.behind), g.load_work, static_cast<double>(l.with_stacks.size()),
+          static_cast<double>(l.slidelines.holes.size())};
 }
 
 template <int Dim> void unpack(const std::vector<double>& v, Layers<Dim>& l) {
@@ -107,6 +108,7 @@ template <int Dim> void unpack(const std::vector<double>& v, Layers<Dim>& l) {
   g.turned_over = static_cast<long>(v.at(18));
   g.behind = static_cast<long>(v.at(19));
   l.with_stacks.assign(static_cast<std::size_t>(v.at(21)), {});
+  l.slidelines.holes.assign(static_cast<std::size_t>(v.at(22)), {});
 }
 
 template <int Dim> void put_contact(io::CheckpointWriter& out, const std::string& at, const ContactState<Dim>& c) {
@@ -139,6 +141,9 @@ template <int Dim, class L, class Visit> void visit_contacts(L& l, const std::st
   for (std::size_t q = 0; q < l.slidelines.pairs.size(); ++q) {
     visit(base + fmt::format("slideline_{}/", q), l.slidelines.pairs[q]);
   }
+  for (std::size_t q = 0; q < l.slidelines.holes.size(); ++q) {
+    visit(base + fmt::format("hole_{}/", q), l.slidelines.holes[q].state);
+  }
   for (std::size_t q = 0; q < l.with_blocks.size(); ++q) {
     visit(base + fmt::format("with_block_{}/", q), l.with_blocks[q]);
   }
@@ -164,6 +169,10 @@ template <int Dim> void put_layers(io::CheckpointWriter& out, const std::vector<
       const StackContact<Dim>& with = l.with_stacks[c];
       out.put(base + fmt::format("with_stack_{}/layers", c), std::vector<std::int64_t>{with.other, with.layer, with.other_layer});
     }
+    for (std::size_t c = 0; c < l.slidelines.holes.size(); ++c) {
+      const HoleContact<Dim>& hole = l.slidelines.holes[c];
+      out.put(base + fmt::format("hole_{}/layers", c), std::vector<std::int64_t>{hole.lower, hole.upper});
+    }
   }
 }
 
@@ -188,6 +197,11 @@ template <int Dim> void get_layers(const io::CheckpointReader& in, std::vector<L
       l.with_stacks[c].other = static_cast<int>(with.at(0));
       l.with_stacks[c].layer = static_cast<int>(with.at(1));
       l.with_stacks[c].other_layer = static_cast<int>(with.at(2));
+    }
+    for (std::size_t c = 0; c < l.slidelines.holes.size(); ++c) {
+      const std::vector<std::int64_t> hole = in.get_ints(base + fmt::format("hole_{}/layers", c));
+      l.slidelines.holes[c].lower = static_cast<int>(hole.at(0));
+      l.slidelines.holes[c].upper = static_cast<int>(hole.at(1));
     }
   }
 }

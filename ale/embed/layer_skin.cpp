@@ -16,7 +16,6 @@ using Point = std::array<double, 3>;
 constexpr double apart = std::numeric_limits<double>::infinity();
 constexpr int cuts = 4; ///< of a quadrilateral that is hidden in part, along each side
 
-
 struct Column {
   int i, j;
 };
@@ -185,13 +184,15 @@ private:
   /// The point of a layer's face nearest to x.
   struct OnFace {
     double gap = apart; ///< none
-    bool beyond = false; ///< past the end of the layer
+    bool behind = false; ///< x is in the layer that the face bounds
+    bool at_end = false, beyond = false; ///< where the layer ends, past it
     Column column = {0, 0};
     int layer = 0;
     bool found() const { return gap < apart; }
+    double room() const { return behind ? -gap : gap; }
   };
   OnFace on(int layer, bool low, Column c, const Point& x) const {
-    constexpr double rounding = 1e-9;
+    constexpr double rounding = 1e-9, close = 1e-6;
     Point p[4], along[2], off{};
     for (std::size_t q = 0; q < 4; ++q) {
       p[q] = place(layer, {c.i + corner_of[q].i, c.j + corner_of[q].j}, low);
@@ -211,14 +212,22 @@ private:
     out.column = c;
     for (int axis = 0; axis < 2; ++axis) {
       const double t = at[static_cast<std::size_t>(axis)];
-      out.beyond = out.beyond || (t < -rounding && ends(layer, c, axis, -1)) || (t > 1 + rounding && ends(layer, c, axis, 1));
+      const auto past = [&](double by) { return (t < -by && ends(layer, c, axis, -1)) || (t > 1 + by && ends(layer, c, axis, 1)); };
+      out.beyond = out.beyond || past(rounding);
+      out.at_end = out.at_end || past(-close);
     }
     const auto w = corner_weights(std::clamp(at[0], 0.0, 1.0), std::clamp(at[1], 0.0, 1.0));
-    Point to = x;
-    for (std::size_t d = 0; d < 3; ++d) {
-      to[d] -= w[0] * p[0][d] + w[1] * p[1][d] + w[2] * p[2][d] + w[3] * p[3][d];
+    Point to = x, through{}; // from the face to x, and to the layer's other face
+    for (std::size_t q = 0; q < 4; ++q) {
+      const Point other = place(layer, {c.i + corner_of[q].i, c.j + corner_of[q].j}, !low);
+      for (std::size_t d = 0; d < 3; ++d) {
+        to[d] -= w[q] * p[q][d];
+        through[d] += w[q] * (other[d] - p[q][d]);
+      }
     }
     out.gap = std::sqrt(dot(to, to));
+    const double up = dot(to, cross(along[0], along[1]));
+    out.behind = (low ? up > 0 : up < 0) && out.gap * out.gap < dot(through, through);
     return out;
   }
   OnFace nearest(int layer, bool low, const Point& x, Column start) const {
@@ -287,13 +296,14 @@ private:
       };
       const double edge = std::min(length_beside(s_.lines[0], n.i), length_beside(s_.lines[1], n.j));
       if (square - across * across < 0.0625 * edge * edge) {
-        gap_[here] = std::abs(across);
+        const Point through = minus(place(q, n, low), place(q, n, !low));
+        gap_[here] = across * across < dot(through, through) ? across : std::abs(across); // else it is through that layer
         plain_[here] = 1;
         return;
       }
     }
     const OnFace next = over(layer, low, v.x, n);
-    gap_[here] = next.gap;
+    gap_[here] = next.room();
     plain_[here] = own && next.found() && next.layer == q && is_whole(q, next.column, 1) ? 1 : 0;
   }
   bool hidden_at(int layer, Column n, bool low) const { return gap_[at(layer, n, low)] <= seen_slit * least(n); }
@@ -315,14 +325,14 @@ private:
     return low ? p.below : p.above;
   }
 
-  /// Adds a rim, or a lower or upper face, in parts where it is hidden in part.
+  /// Adds a face in parts where it is hidden in part; a rim is only where it lies in other layers.
   void add_visible(const Quad& quad, std::vector<SkinPatch>& out) const {
     const SkinPatch& whole = quad.patch;
-    if (whole.side == 2) {
+    if (whole.side == 2 && !std::any_of(whole.vertex.begin(), whole.vertex.end(), [&](int v) { return gap_[static_cast<std::size_t>(v)] < 0; })) {
       out.push_back(whole);
       return;
     }
-    const bool low = whole.side == 0;
+    const bool low = whole.side == 0, rim = whole.side == 2;
     std::array<double, 4> room; // beyond what is closed, at the corners
     bool plain = true, all = true, none = true;
     double enough = 0;
@@ -334,6 +344,7 @@ private:
       none = none && room[q] > 0;
       enough += 0.25 * seen_slit * least_[n];
     }
+    plain = plain && !rim;
     if (plain && (all || none)) {
       out.push_back(whole);
       out.back().hidden = all;
@@ -350,7 +361,9 @@ private:
           x[d] += w[q] * skin_.vertices[static_cast<std::size_t>(whole.vertex[q])].x[d];
         }
       }
-      hidden[static_cast<std::size_t>(k)] = (plain ? gap <= 0 : over(quad.layer, low, x, quad.column).gap <= enough) ? 1 : 0;
+      const auto above = [&](bool below) { return over(quad.layer, below, x, quad.column); };
+      const auto in_other = [&](const OnFace& o) { return o.behind && !o.at_end; }; // else both rims would be hidden
+      hidden[static_cast<std::size_t>(k)] = (rim ? in_other(above(true)) || in_other(above(false)) : plain ? gap <= 0 : above(low).room() <= enough) ? 1 : 0;
     }
     const auto count = std::count(hidden.begin(), hidden.end(), 1);
     if (count == 0 || count == cuts * cuts) {
@@ -373,7 +386,7 @@ private:
   ThreadPool& pool_;
   const int nx_, ny_;
   Skin skin_;
-  std::vector<double> gap_;   ///< m: over vertices
+  std::vector<double> gap_;   ///< m: over vertices; negative: in that layer
   std::vector<char> plain_;
   std::vector<Point> across_; ///< over vertices: normal without the rims', not unit
 };

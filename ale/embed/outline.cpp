@@ -21,6 +21,8 @@ double distance(const Point& a, const Point& b) { return length_of(a[0] - b[0], 
 struct OnPlane {
   int segment = -1; ///< none
   double part = 0, gap = 0;
+  bool behind = false; ///< in the layer that the plane bounds
+  bool at_end = false; ///< where the layer's run ends
   bool beyond = false; ///< past the end of the layer's run: nothing is over the point
 };
 
@@ -88,14 +90,14 @@ private:
 
   /// The point of a layer's plane nearest to x, searched from segment `start` on.
   OnPlane nearest(int layer, int plane, const Point& x, int start) const {
-    constexpr double rounding = 1e-9;
+    constexpr double rounding = 1e-9, close = 1e-6;
     const int n = s_.grid.elements[0];
     const auto on = [&](int i) {
       const Point a = place(i, plane), b = place(i + 1, plane), along = {b[0] - a[0], b[1] - a[1]}, off = {x[0] - a[0], x[1] - a[1]};
       const double length = along[0] * along[0] + along[1] * along[1];
       const double where = length > 0 ? (off[0] * along[0] + off[1] * along[1]) / length : 0.0, t = std::clamp(where, 0.0, 1.0);
-      const bool beyond = (where < -rounding && ends(layer, i)) || (where > 1 + rounding && ends(layer, i + 1));
-      return OnPlane{i, t, length_of(off[0] - t * along[0], off[1] - t * along[1]), beyond};
+      const auto past = [&](double by) { return (where < -by && ends(layer, i)) || (where > 1 + by && ends(layer, i + 1)); };
+      return OnPlane{i, t, length_of(off[0] - t * along[0], off[1] - t * along[1]), lies_behind(layer, plane, i, t, x), past(-close), past(rounding)};
     };
     int from = -1;
     for (int off = 0; off < n && from < 0; ++off) {
@@ -117,13 +119,36 @@ private:
     return best;
   }
 
-  /// From a point on a layer's face to the nearest layer that lies over it on that side; `apart` if none does.
+  /// Is x in the layer whose face is at part t of segment i nearest to it? At a node the two segments' normals count together.
+  bool lies_behind(int layer, int plane, int i, double t, const Point& x) const {
+    const bool low = plane == this->plane(layer, true);
+    const int other = this->plane(layer, !low), beside = t == 0 ? i - 1 : t == 1 ? i + 1 : i;
+    const auto along = [&](int k) {
+      const Point a = place(k, plane), b = place(k + 1, plane);
+      const double length = distance(a, b);
+      return length > 0 ? Point{(b[0] - a[0]) / length, (b[1] - a[1]) / length} : Point{0, 0};
+    };
+    const auto on = [&](int p) {
+      const Point a = place(i, p), b = place(i + 1, p);
+      return Point{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
+    };
+    Point way = along(i);
+    if (beside != i && there(layer, beside)) {
+      const Point more = along(beside);
+      way = {way[0] + more[0], way[1] + more[1]};
+    }
+    const Point foot = on(plane), off = {x[0] - foot[0], x[1] - foot[1]};
+    const double above = way[0] * off[1] - way[1] * off[0];
+    return (low ? above > 0 : above < 0) && length_of(off[0], off[1]) < distance(foot, on(other));
+  }
+
+  /// From a point on a layer's face to the nearest layer that lies over it on that side, negative where it lies in that; `apart` if none does.
   double gap_to_next(int layer, bool low, const Point& x, int start) const {
     double gap = apart;
     const double enough = seen_slit * least_[at(std::min(start, s_.grid.elements[0]))];
     for (int q = low ? layer - 1 : layer + 1; q >= 0 && q < s_.grid.layers && gap > enough; q += low ? -1 : 1) {
       const OnPlane on = nearest(q, plane(q, !low), x, start);
-      gap = on.segment < 0 || on.beyond ? gap : std::min(gap, on.gap);
+      gap = on.segment < 0 || on.beyond ? gap : std::min(gap, on.behind ? -on.gap : on.gap);
     }
     return gap;
   }
@@ -221,16 +246,64 @@ private:
     return out;
   }
 
+  /// Does x, on layer's rim, lie in one of the layers below it (or above)? Not where that ends just there: both rims would be hidden.
+  bool in_others(int layer, bool below, const Point& x, int start) const {
+    bool in = false;
+    for (int q = below ? layer - 1 : layer + 1; q >= 0 && q < s_.grid.layers && !in; q += below ? -1 : 1) {
+      const OnPlane on = nearest(q, plane(q, !below), x, start);
+      in = on.segment >= 0 && on.behind && !on.at_end;
+    }
+    return in;
+  }
+  /// Parts of a layer's rim at node i, from below, that lie in layers under it and over it: up to the first, from the second on.
+  std::array<double, 2> covered_rim(int layer, int i) const {
+    const Point a = place(i, plane(layer, true)), b = place(i, plane(layer, false));
+    const auto covered = [&](bool low, double part) { return in_others(layer, low, {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])}, i); };
+    std::array<double, 2> out = {0, 1};
+    for (const bool low : {true, false}) {
+      double in = low ? 0 : 1, free = 1 - in;
+      if (!(gap_at(layer, i, low) < 0) || !covered(low, in)) {
+        continue;
+      }
+      for (int halving = 0; halving < 20; ++halving) {
+        const double middle = 0.5 * (in + free);
+        (covered(low, middle) ? in : free) = middle;
+      }
+      out[low ? 0 : 1] = in;
+    }
+    return out;
+  }
+  /// The rest of a rim after its first vertex, which is `out`'s last: what lies in other layers is hidden.
+  void add_rim(int layer, int i, bool upwards, Outline& out) const {
+    const OutlineVertex a = vertex(layer, i, true), b = vertex(layer, i, false);
+    const std::array<double, 2> covered = covered_rim(layer, i);
+    const auto visible = [&](double part) { return part >= covered[0] && part < covered[1]; };
+    out.back().hidden = !visible(upwards ? 0 : std::nextafter(1.0, 0.0));
+    for (const double part : {upwards ? covered[0] : covered[1], upwards ? covered[1] : covered[0]}) {
+      if (part > 0 && part < 1 && covered[0] < covered[1]) {
+        OutlineVertex v = {{a.node[0], b.node[0]}, {1 - part, part}, {a.x[0] + part * (b.x[0] - a.x[0]), a.x[1] + part * (b.x[1] - a.x[1])}, a.offset + part * (b.offset - a.offset), 2, false};
+        v.hidden = !visible(upwards ? part : std::nextafter(part, 0.0));
+        out.push_back(v);
+      }
+    }
+  }
+
   Outline loop(int layer, int begin, int end, const std::array<std::vector<std::vector<double>>, 2>& over) const {
     Outline out = face(layer, begin, end, true, over[0]), upper = face(layer, begin, end, false, over[1]);
     const int n = s_.grid.elements[0];
     const auto edge = [&](bool at_end, LayerEdge kind) { return !at_end || kind == LayerEdge::free ? 2 : kind == LayerEdge::symmetry ? -2 : -1; };
     out.back().side = edge(end == n, s_.edge[0][1]);
+    if (out.back().side == 2) {
+      add_rim(layer, end, true, out);
+    }
     for (std::size_t k = upper.size(); k-- > 0;) { // a stretch belongs to the vertex it is left by, now the other way
       OutlineVertex v = upper[k];
       v.hidden = k > 0 && upper[k - 1].hidden;
       v.side = k > 0 ? 1 : edge(begin == 0, s_.edge[0][0]);
       out.push_back(v);
+    }
+    if (out.back().side == 2) {
+      add_rim(layer, begin, false, out);
     }
     return out;
   }

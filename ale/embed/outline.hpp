@@ -2,7 +2,7 @@
 // cover together, with the slits between layers that no mesh is to see (ale/embed/layer_body). Loops move as the layers do, so nothing jumps when
 // layers slide, part, meet or tear but what has gone itself.
 //
-// A stretch of a loop is hidden where the next layer's face lies closer than `seen` times `least_thickness`; the rest of all loops is the body's
+// A stretch of a loop is hidden where it lies in another layer, or that layer's face closer than `seen` times `least_thickness`; the rest of all loops is the body's
 // surface. Where what is left between two such surfaces is thinner than `least_thickness`, the body is taken as that thick.
 #pragma once
 

@@ -1,5 +1,6 @@
 #include "ale/layers/slideline.hpp"
 
+#include "ale/layers/layer_erosion.hpp"
 #include "ale/layers/layer_load.hpp"
 
 #include <algorithm>
@@ -20,6 +21,18 @@ template <int Dim> void start_track(const ContactSurface<Dim>& s, ContactTrack<D
     track.status[at] = FootStatus::front;
     track.segment[at] = sj * s.segments[0] + si;
     track.local[at] = {static_cast<double>(i - si), static_cast<double>(j - sj)};
+  }
+}
+
+/// Adds the pairs of layers that can meet by now, between which every layer has a hole.
+template <int Dim> void find_holes(const LayerStack<Dim>& stack, std::vector<HoleContact<Dim>>& holes) {
+  for (int lower = 0; lower + 2 < stack.grid.layers; ++lower) {
+    for (int upper = lower + 2; upper < stack.grid.layers && has_hole(stack, upper - 1); ++upper) {
+      const bool known = std::any_of(holes.begin(), holes.end(), [&](const HoleContact<Dim>& h) { return h.lower == lower && h.upper == upper; });
+      if (!known) {
+        holes.push_back({lower, upper, {}});
+      }
+    }
   }
 }
 
@@ -94,11 +107,18 @@ SlidelineReport resolve_slidelines(const LayerStack<Dim>& stack, double dt, Laye
   });
 
   SlidelineReport report;
+  const auto add = [&](int lower, int upper, const ContactReport& pair) {
+    report.deepest_pair = pair.deepest > report.contact.deepest ? lower : report.deepest_pair;
+    report.closing_share = std::max(report.closing_share, pair.closing / std::min(layer_thickness(stack, lower), layer_thickness(stack, upper)));
+    add_report(report.contact, pair);
+  };
   for (std::size_t p = 0; p < count; ++p) {
-    const int layer = static_cast<int>(p);
-    report.deepest_pair = reports[p].deepest > report.contact.deepest ? layer : report.deepest_pair;
-    report.closing_share = std::max(report.closing_share, reports[p].closing / std::min(layer_thickness(stack, layer), layer_thickness(stack, layer + 1)));
-    add_report(report.contact, reports[p]);
+    add(static_cast<int>(p), static_cast<int>(p) + 1, reports[p]);
+  }
+  find_holes(stack, state.holes);
+  for (HoleContact<Dim>& h : state.holes) {
+    ContactSurface<Dim> lower = layer_surface(stack, velocity, h.lower, true, state.held, load), upper = layer_surface(stack, velocity, h.upper, false, state.held, load);
+    add(h.lower, h.upper, resolve_contact(lower, upper, dt, settings, h.state, &pool));
   }
   return report;
 }

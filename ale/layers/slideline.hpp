@@ -2,7 +2,8 @@
 //
 // A layer has nodes of its own on both faces, so pairs share none: they are solved side by side, each in its own fixed order,
 // and the sum is taken in the order of the pairs. Which side a layer lies on is known from the start: no layer passes another
-// however fast, except through holes (eroded elements). Layers that meet through a hole of the one between them do not touch.
+// however fast, except through holes (eroded elements). Layers that meet through holes of those between them touch, too, one pair after
+// the other once the neighbours are done: they share nodes with these.
 #pragma once
 
 #include "ale/layers/contact.hpp"
@@ -18,8 +19,15 @@ template <int Dim> using LayerVelocity = std::type_identity_t<std::array<std::ve
 
 template <int Dim> struct LayerLoad;
 
+/// Two layers that are no neighbours, and what their contact keeps.
+template <int Dim> struct HoleContact {
+  int lower = 0, upper = 0;
+  ContactState<Dim> state;
+};
+
 template <int Dim> struct SlidelineState {
-  std::vector<ContactState<Dim>> pairs; ///< from the lowest
+  std::vector<ContactState<Dim>> pairs; ///< neighbours, from the lowest
+  std::vector<HoleContact<Dim>> holes;  ///< since every layer between the two has lost an element
   std::vector<unsigned char> held;      ///< by node of a plane
   long steps = 0;                       ///< counts to the next refresh
 };

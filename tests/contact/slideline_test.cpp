@@ -236,5 +236,52 @@ TEST(Slidelines, ErodedElementsAreHoles) {
   }
 }
 
+/// Layers 0 and 3 of a stack whose two layers between have a hole in the middle: what of the lowest is thrown at it meets the top one there, and the
+/// momentum of all is kept.
+template <int Dim> void expect_layers_meet_through_holes() {
+  ThreadPool pool(2);
+  constexpr int n = 10;
+  LayerStack<Dim> s = make_springs<Dim>(n, 4);
+  const auto in_hole = [](int i, int least) { return i >= 3 + least && i <= 7 - least; };
+  for (int layer : {1, 2}) {
+    for (int j = 0; j < (Dim == 3 ? n : 1); ++j) {
+      for (int i = 3; i < 7; ++i) {
+        s.alive[s.element(i, j, layer)] = Dim == 2 || (j >= 3 && j < 7) ? 0 : 1;
+      }
+    }
+  }
+  const double h = thickness / 4, dt = 1e-7, speed = 100;
+  const int rows = Dim == 3 ? n + 1 : 1;
+  double before = 0, after = 0;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const bool over = in_hole(i, 1) && (Dim == 2 || in_hole(j, 1)); // no segment of the layers between is there
+      s.velocity[Dim - 1][s.node(i, j, 1)] = over ? speed : 0;
+      before += over ? speed * s.mass[s.node(i, j, 1)] : 0;
+    }
+  }
+  SlidelineState<Dim> state;
+  for (int step = 0; step < static_cast<int>(2.5 * h / speed / dt); ++step) {
+    resolve_slidelines(s, dt, s.velocity, pool, {}, state);
+    for (std::size_t q = 0; q < s.mass.size(); ++q) {
+      for (std::size_t d = 0; d < Dim; ++d) {
+        s.position[d][q] += dt * s.velocity[d][q];
+      }
+    }
+  }
+  for (std::size_t q = 0; q < s.mass.size(); ++q) {
+    after += s.mass[q] * s.velocity[Dim - 1][q];
+  }
+  EXPECT_NEAR(after, before, 1e-13 * before);
+  const std::size_t low = s.node(5, Dim == 3 ? 5 : 0, 1), high = s.node(5, Dim == 3 ? 5 : 0, 6);
+  EXPECT_NEAR(s.velocity[Dim - 1][low], 0.5 * speed, 0.02 * speed);
+  EXPECT_NEAR(s.velocity[Dim - 1][high], 0.5 * speed, 0.02 * speed);
+  EXPECT_LT(s.position[Dim - 1][low] - s.position[Dim - 1][high], 1e-3 * h);
+  EXPECT_EQ(state.holes.size(), 3U); // 0 and 2, 0 and 3, 1 and 3
+}
+
+TEST(Slidelines, LayersMeetThroughHolesOfThoseBetween) { expect_layers_meet_through_holes<2>(); }
+TEST(Slidelines, LayersMeetThroughHolesOfThoseBetweenInSpace) { expect_layers_meet_through_holes<3>(); }
+
 } // namespace
 } // namespace ballast

@@ -183,5 +183,20 @@ TEST(LayerSkin, GoesOnWhereItsEdgesAreHeld) {
   EXPECT_NEAR(level_at(body, 20, -3, 0.5), -0.5, 1e-12);
 }
 
+/// Layers that have gone into each other: nothing is open between their faces.
+TEST(LayerSkin, HoldsWhatTwoLayersCoverTogether) {
+  for (const double depth : {0.15, 0.6, 0.9}) {
+    LayerStack<3> s = torn_stack();
+    move_layer(s, 0, [&](double&, double&, double& z) { z += depth * mm; });
+    const LayerBody<3> body = body_of(s, 0.3 * mm);
+    for (const double z : {depth + 0.05, 1 + 0.5 * depth, 1.95}) {
+      EXPECT_LT(level_at(body, 4.5, 4.4, z), 0) << depth << ' ' << z;
+    }
+    EXPECT_LT(level_at(body, 2.95, 4.4, 1.02), 0) << depth; // beside the lower one's rim, in the upper one
+    EXPECT_GT(level_at(body, 4.5, 4.4, depth - 0.05), 0) << depth;
+    EXPECT_GT(level_at(body, 1.4, 1.6, 0.95), 0) << depth;
+  }
+}
+
 } // namespace
 } // namespace ballast
