@@ -35,6 +35,9 @@ struct BatchFailure {
   Sym state{};    ///< there
 };
 
+/// Of a vector of CVODE's, seven values a cell, times their weights: the root mean square of the worst cell's first six; NaN if any cell has none.
+double worst_cell_norm(std::span<const double> values, std::span<const double> weights);
+
 /// Owned by one thread: SUNDIALS' context, solvers and buffers of every batch size that came up.
 class BatchSolver {
 public:

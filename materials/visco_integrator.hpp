@@ -32,7 +32,7 @@ struct TissueOptions {
 struct TissueCounts {
   std::array<long, 4> fast{}; ///< accepted after 1, 2, 4, 8 substeps
   long over = 0;              ///< the fast path's estimate is above the tolerance (or no number)
-  long no_number = 0;         ///< of those: fails, without CVODE
+  long no_number = 0;         ///< fails without CVODE: of those, or a network A beyond its lock
   long stiff = 0;             ///< integrated by CVODE
   double worst_estimate = 0;  ///< of accepted cells
   BatchCounts cvode{};
@@ -43,8 +43,8 @@ void add(TissueCounts& to, const TissueCounts& more);
 
 struct TissueFailure {
   int cell = 0; ///< of the row
-  std::size_t branch = 0;
-  int reason = 0;     ///< CVODE's flag; 0: the fast path gives no number
+  std::size_t branch = 0; ///< Bergstroem-Boyce: 0 network B, 1 network A (its chains beyond their lock)
+  int reason = 0;     ///< CVODE's flag; 0: no number
   double reached = 0; ///< of the step
   Sym state{};        ///< there
 };

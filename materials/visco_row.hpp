@@ -60,6 +60,20 @@ inline void store_result(const ViscoRow& row, std::size_t i, const Sym& kirchhof
   row.work[i] = work;
 }
 
+/// The first cell whose stress or energies are no number; -1: all are.
+inline int first_without_number(const ViscoRow& row) {
+  for (int i = 0; i < row.cells; ++i) {
+    double sum = row.stored[i] + row.dissipated[i] + row.work[i];
+    for (const double* s : row.stress) {
+      sum += s[i];
+    }
+    if (!std::isfinite(sum)) {
+      return i;
+    }
+  }
+  return -1;
+}
+
 /// A branch at the end of a step.
 struct Relaxed {
   Sym stress;        ///< Pa

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 namespace ballast {
 namespace {
@@ -125,6 +126,31 @@ TEST(BergstroemBoyce, StressIsTheSlopeOfTheSpringsEnergy) {
   EXPECT_TRUE(std::isnan(spring_modulus({6e5, std::sqrt(8.0)}, 24.1).value)); // locked
 }
 
+TEST(BergstroemBoyce, ChainsOfNetworkABeyondTheirLockAreAFailure) {
+  const BergstroemBoyce law = elastomer_boyce();
+  for (const BranchPath path : {BranchPath::mixed, BranchPath::cvode}) {
+    TissueIntegrator by(by_path(path));
+    Points p(law, 3);
+    double stretch = 1;
+    std::optional<TissueFailure> failure;
+    for (int k = 0; k < 60 && !failure; ++k) {
+      p.move(0, midpoint_gradient(unit_mat, stretched(1.001)), 1);
+      p.move(1, midpoint_gradient(unit_mat, stretched(1.03)), 1);
+      failure = by.advance(law, p.row);
+      stretch *= 1.03;
+      const bool locked = stretch * stretch + 2 / stretch > 3 * 8; // lam_L^2 = 8
+      ASSERT_EQ(failure.has_value(), locked) << stretch;
+      EXPECT_TRUE(std::isfinite(norm(p.stress_of(0)) + p.stored[0]));
+    }
+    ASSERT_TRUE(failure);
+    EXPECT_EQ(failure->cell, 1);
+    EXPECT_EQ(failure->branch, 1U); // network A
+    EXPECT_EQ(failure->reason, 0);
+    EXPECT_GT(trace(failure->state), 24);
+    EXPECT_EQ(by.counts().no_number, 1);
+  }
+}
+
 TEST(BergstroemBoyce, WorkIsStoredOrDissipated) {
   for (const History& h : histories()) {
     double coarse = 0, fine = 0, cvode = 0;
@@ -202,7 +228,8 @@ TEST(BergstroemBoyce, SpinTurnsAStrainedStateExactly) {
 }
 
 TEST(BergstroemBoyce, MeansOfTensorsStayPositiveDefinite) {
-  const BergstroemBoyce law = elastomer_boyce();
+  BergstroemBoyce law = elastomer_boyce();
+  law.a.lock_stretch = std::numeric_limits<double>::infinity(); // the motions go beyond
   TissueIntegrator integrator(by_path(BranchPath::mixed));
   Points p(law, 2);
   for (int k = 0; k < 400; ++k) {
