@@ -3,6 +3,7 @@
 
 #include "ale/block.hpp"
 #include "ale/layers/layers.hpp"
+#include "ale/step_undo.hpp"
 #include "core/threads.hpp"
 #include "materials/visco_integrator.hpp"
 #include "remap/normal.hpp"
@@ -99,6 +100,7 @@ template <int Dim> struct Scene {
   Ledger ledger;
   std::vector<TissueIntegrator> tissue; ///< one a thread
   std::unique_ptr<ThreadPool> pool = std::make_unique<ThreadPool>(1);
+  std::vector<StepUndo> undo; ///< by block, of the step at hand; empty unless tissue is integrated
 };
 
 } // namespace ballast

@@ -280,7 +280,7 @@ template <int Dim> void set_flow_stress(MaterialSlot& slot, int r, int begin, in
   }
 }
 
-template <int Dim> void book_tissue(Scene<Dim>& scene, const Block<Dim>& b, const StepSums<Dim>& sums, const Clock& clock) {
+template <int Dim> void book_tissue(Scene<Dim>& scene, const StepSums<Dim>& sums) {
   Ledger& l = scene.ledger;
   for (std::size_t m = 0; m < sums.tissue.size(); ++m) {
     l.tissue[m].work += sums.tissue[m].work;
@@ -288,18 +288,25 @@ template <int Dim> void book_tissue(Scene<Dim>& scene, const Block<Dim>& b, cons
     l.tissue[m].lost += sums.tissue[m].lost;
   }
   l.tissue_repairs += sums.tissue_repairs;
+}
+
+template <int Dim> void book_counts(Scene<Dim>& scene, bool stands) {
   for (TissueIntegrator& integrator : scene.tissue) {
-    add(l.tissue_counts, integrator.counts());
+    const TissueCounts all = integrator.counts();
+    TissueCounts spent;
+    spent.no_number = all.no_number;
+    spent.cvode = all.cvode;
+    add(scene.ledger.tissue_counts, stands ? all : spent);
     integrator.reset_counts();
   }
-  if (sums.trouble) {
-    const TissueTrouble& t = *sums.trouble;
-    throw NumericalFailure(fmt::format(
-        "block {}, cell ({}, {}, {}), material {}: branch {} of {} could not be integrated (reason {}, {:.3g} of the step done, state there {:g}) at time "
-        "{:g} s, dt {:g} s",
-        b.name, t.cell[0], t.cell[1], t.cell[2], b.materials[t.material].material.name, t.failure.branch + 1,
-        describe(b.materials[t.material].material.strength), t.failure.reason, t.failure.reached, fmt::join(t.failure.state, " "), clock.time, clock.dt));
-  }
+}
+
+template <int Dim> void throw_trouble(const Block<Dim>& b, const TissueTrouble& t, const Clock& clock) {
+  throw NumericalFailure(fmt::format(
+      "block {}, cell ({}, {}, {}), material {}: branch {} of {} could not be integrated (reason {}, {:.3g} of the step done, state there {:g}) at time "
+      "{:g} s, dt {:g} s",
+      b.name, t.cell[0], t.cell[1], t.cell[2], b.materials[t.material].material.name, t.failure.branch + 1,
+      describe(b.materials[t.material].material.strength), t.failure.reason, t.failure.reached, fmt::join(t.failure.state, " "), clock.time, clock.dt));
 }
 
 template void prepare_tissue<2>(Scene<2>&);
@@ -312,7 +319,11 @@ template void free_memory<2>(MaterialSlot&, const std::array<double, 3>&, const 
 template void free_memory<3>(MaterialSlot&, const std::array<double, 3>&, const std::array<double, 3>&, int, int);
 template void set_flow_stress<2>(MaterialSlot&, int, int, int);
 template void set_flow_stress<3>(MaterialSlot&, int, int, int);
-template void book_tissue<2>(Scene<2>&, const Block<2>&, const StepSums<2>&, const Clock&);
-template void book_tissue<3>(Scene<3>&, const Block<3>&, const StepSums<3>&, const Clock&);
+template void book_tissue<2>(Scene<2>&, const StepSums<2>&);
+template void book_tissue<3>(Scene<3>&, const StepSums<3>&);
+template void book_counts<2>(Scene<2>&, bool);
+template void book_counts<3>(Scene<3>&, bool);
+template void throw_trouble<2>(const Block<2>&, const TissueTrouble&, const Clock&);
+template void throw_trouble<3>(const Block<3>&, const TissueTrouble&, const Clock&);
 
 } // namespace ballast

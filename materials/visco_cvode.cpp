@@ -154,8 +154,8 @@ void stay_silent(int, const char*, const char*, char*, void*) {} // failures are
 /// CVODE for one number of cells, over a buffer of its own.
 class Batch {
 public:
-  Batch(SUNContext context, std::size_t cells, double tolerance) : storage_(width * cells) {
-    job_.tolerance = tolerance;
+  Batch(SUNContext context, std::size_t cells, const BatchOptions& options) : storage_(width * cells) {
+    job_.tolerance = options.tolerance;
     y_ = N_VMake_Serial(static_cast<sunindextype>(storage_.size()), storage_.data(), context);
     y_->ops->nvwrmsnorm = norm_callback;
     cvode_ = CVodeCreate(CV_BDF, context);
@@ -164,7 +164,7 @@ public:
     CVodeInit(cvode_, rate_callback, 0.0, y_);
     CVodeWFtolerances(cvode_, weight_callback);
     CVodeSetUserData(cvode_, &job_);
-    CVodeSetMaxNumSteps(cvode_, 5000);
+    CVodeSetMaxNumSteps(cvode_, options.most_steps);
     solver_ = SUNLinSolNewEmpty(context);
     solver_->content = &job_;
     solver_->ops->gettype = solver_type;
@@ -254,15 +254,15 @@ struct BatchSolver::Impl {
   Batch& batch_for(std::size_t cells) {
     const auto k = static_cast<std::size_t>(std::bit_width(cells - 1));
     if (!sizes[k]) {
-      sizes[k] = std::make_unique<Batch>(context, std::size_t{1} << k, options.tolerance);
+      sizes[k] = std::make_unique<Batch>(context, std::size_t{1} << k, options);
     }
     return *sizes[k];
   }
 };
 
 BatchSolver::BatchSolver(const BatchOptions& options) : impl_(std::make_unique<Impl>()) {
-  if (!(options.tolerance > 0 && options.tolerance < 1) || options.batch < 1 || options.batch > 4096) {
-    throw Error("viscoelastic batches: tolerance must be in (0, 1), cells in [1, 4096]");
+  if (!(options.tolerance > 0 && options.tolerance < 1) || options.batch < 1 || options.batch > 4096 || options.most_steps < 1) {
+    throw Error("viscoelastic batches: tolerance must be in (0, 1), cells in [1, 4096], steps at least 1");
   }
   impl_->options = options;
   if (SUNContext_Create(nullptr, &impl_->context) != 0) {

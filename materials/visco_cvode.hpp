@@ -19,6 +19,7 @@ namespace ballast {
 struct BatchOptions {
   double tolerance = 1e-4; ///< of CVODE's local error, relative to the law's error_scale
   int batch = 16;          ///< cells, at most 4096
+  int most_steps = 5000;   ///< of CVODE's in the unit step; more is a failure
 };
 
 struct BatchCounts {

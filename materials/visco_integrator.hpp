@@ -55,8 +55,8 @@ public:
   explicit TissueIntegrator(const TissueOptions& options);
 
   /// One step; Prony rows need no integrator. Bergstroem-Boyce tensors are made unimodular first (a remap mixes them).
-  /// A branch of a cell that fails keeps its state of the start and is counted; the first is returned. The row's other cells and branches
-  /// have moved on by then: who takes the step again keeps a copy.
+  /// A branch of a cell that fails neither strains nor relaxes (it may have turned) and is counted; the first is returned. The row's other
+  /// cells and branches have moved on by then: who takes the step again keeps a copy (ale/step_undo).
   [[nodiscard]] std::optional<TissueFailure> advance(const PowerLawZener& m, const ViscoRow& row);
   [[nodiscard]] std::optional<TissueFailure> advance(const BergstroemBoyce& m, const ViscoRow& row);
 
