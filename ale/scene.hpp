@@ -60,7 +60,8 @@ struct Clock {
 };
 
 /// Of a viscoelastic material since the start, J: work of its deviator, what of it became heat, and free energy that a remap
-/// (a mixture holds less than its parts), an interface (ale/traction) or a sliver took. What is stored is the free energy's sum.
+/// (a mixture holds less than its parts; Fung's may hold more, then it counts as negative), an interface (ale/traction) or a sliver
+/// took. What is stored is the free energy's sum.
 struct TissueEnergy {
   double work = 0, dissipated = 0, lost = 0;
 };

@@ -261,7 +261,7 @@ TEST(Tissue, WorkIsStoredBecomesHeatOrIsBookedAsLost) {
     EXPECT_GT(e.dissipated, 0) << law;
     // Nothing left the mesh: but for slivers all of it is there.
     EXPECT_NEAR(stored + e.dissipated + e.lost, e.work, 1e-3 * e.work) << law;
-    // Free energy is convex: remaps lose of it, and never gain but for what the integration does not balance.
+    // A mixture holds less than its parts (Fung's may hold more, but not on the whole here): remaps lose, and gain only what the integration does not balance.
     EXPECT_GT(e.lost, -1e-3 * e.work) << law;
     EXPECT_LT(e.lost, 0.3 * e.work) << law;
   }
