@@ -64,7 +64,14 @@ struct Clock {
 /// took. What is stored is the free energy's sum.
 struct TissueEnergy {
   double work = 0, dissipated = 0, lost = 0;
+  double floored = 0; ///< J of the work that no force has done: heat of Fung branches raised to 0 in steps that are too stiff for them
 };
+inline void add(TissueEnergy& to, const TissueEnergy& more) {
+  to.work += more.work;
+  to.dissipated += more.dissipated;
+  to.lost += more.lost;
+  to.floored += more.floored;
+}
 
 /// Energy and mass that left or entered by a named door; all zero in a closed Lagrangian gas run.
 struct Ledger {

@@ -34,7 +34,7 @@ template <int Dim> constexpr std::array<std::size_t, Dim == 2 ? 5 : 9> gradient_
 /// Everything a law reads and writes, for the active cells of a run, in one array.
 ViscoRow lay_out(std::vector<double>& data, int cells, std::size_t tensors, double dt) {
   const auto n = static_cast<std::size_t>(cells);
-  data.assign((9 + 1 + 6 * tensors + 6 + 3) * n, 0.0);
+  data.assign((9 + 1 + 6 * tensors + 6 + 4) * n, 0.0);
   double* at = data.data();
   const auto next = [&] { return std::exchange(at, at + n); };
   ViscoRow row;
@@ -53,6 +53,7 @@ ViscoRow lay_out(std::vector<double>& data, int cells, std::size_t tensors, doub
   row.stored = next();
   row.dissipated = next();
   row.work = next();
+  row.floored = next();
   return row;
 }
 
@@ -226,6 +227,7 @@ void advance_tissue(Block<Dim>& b, const TissueRun<Dim>& run, double dt, TissueI
     const double volume = fields.mass[i] / slot.material.density, before = fields.energy[i] * fields.mass[i];
     fields.energy[i] = row.stored[n] / slot.material.density;
     energy.work += row.work[n] * volume;
+    energy.floored += row.floored[n] * volume;
     energy.dissipated += row.dissipated[n] * volume;
     energy.lost += before - (row.stored[n] - row.work[n] + row.dissipated[n]) * volume;
   }
@@ -283,9 +285,7 @@ template <int Dim> void set_flow_stress(MaterialSlot& slot, int r, int begin, in
 template <int Dim> void book_tissue(Scene<Dim>& scene, const StepSums<Dim>& sums) {
   Ledger& l = scene.ledger;
   for (std::size_t m = 0; m < sums.tissue.size(); ++m) {
-    l.tissue[m].work += sums.tissue[m].work;
-    l.tissue[m].dissipated += sums.tissue[m].dissipated;
-    l.tissue[m].lost += sums.tissue[m].lost;
+    add(l.tissue[m], sums.tissue[m]);
   }
   l.tissue_repairs += sums.tissue_repairs;
 }

@@ -348,9 +348,7 @@ void advance_row(Scene<Dim>& scene,
 
 template <int Dim> void add_tissue(StepSums<Dim>& total, const StepSums<Dim>& s) {
   for (std::size_t m = 0; m < total.tissue.size(); ++m) {
-    total.tissue[m].work += s.tissue[m].work;
-    total.tissue[m].dissipated += s.tissue[m].dissipated;
-    total.tissue[m].lost += s.tissue[m].lost;
+    add(total.tissue[m], s.tissue[m]);
   }
   total.tissue_repairs += s.tissue_repairs;
   total.trouble = total.trouble ? total.trouble : s.trouble;

@@ -26,6 +26,7 @@ struct ViscoRow {
   double* stored = nullptr;                       ///< out: free energy at the end of the step, J/m3 of initial volume
   double* dissipated = nullptr;                   ///< out: in this step, J/m3, never negative
   double* work = nullptr;                         ///< out: of the deviator in this step, J/m3
+  double* floored = nullptr;                      ///< out, may be null: what heat was raised by to be 0 (Fung), part of the work, J/m3
 };
 
 /// Names of six components, for example "prony_1_xx".

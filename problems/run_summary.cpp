@@ -22,7 +22,7 @@ template <int Dim> nlohmann::ordered_json tissue_account(const Block<Dim>& b, co
     if (b.materials[m].memories > 0) {
       const TissueEnergy e = m < l.tissue.size() ? l.tissue[m] : TissueEnergy{};
       j["energy_J"][b.materials[m].material.name] = {
-          {"work", e.work}, {"stored", t.free_energy[m]}, {"dissipated", e.dissipated}, {"lost_in_remaps_and_at_interfaces", e.lost}};
+          {"work", e.work}, {"stored", t.free_energy[m]}, {"dissipated", e.dissipated}, {"lost_in_remaps_and_at_interfaces", e.lost}, {"heat_floored", e.floored}};
     }
   }
   if (!j.empty()) {

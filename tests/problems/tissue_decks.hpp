@@ -68,6 +68,7 @@ template <int Dim> std::vector<std::uint64_t> bits_of(const Scene<Dim>& scene) {
     put(e.work);
     put(e.dissipated);
     put(e.lost);
+    put(e.floored);
   }
   for (const long n : scene.ledger.tissue_counts.fast) {
     put(static_cast<double>(n));
