@@ -298,14 +298,14 @@ template <int Dim> void put_back(Scene<Dim>& scene, const std::vector<Layers<Dim
 }
 
 /// Cells, too, and what embeddings know of the layers, which are put back.
-template <int Dim> void undo_work(Scene<Dim>& scene) {
+template <int Dim> void undo_work(Scene<Dim>& scene, const std::vector<StepSums<Dim>>& sums) {
   for (std::size_t ib = 0; ib < scene.undo.size(); ++ib) {
     undo_rows(scene.blocks[ib], scene.undo[ib]);
   }
   for (const auto& e : scene.embedded) {
     find_least_thickness(scene, *e);
   }
-  book_counts(scene, false);
+  book_counts(scene, sums, false);
 }
 
 constexpr double smallest_volume_ratio = 0.2; // of one step; below it the step is retried smaller
@@ -344,13 +344,13 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
         where = static_cast<std::size_t>(failed);
         worst.cell = sums[where].trouble->cell;
         if (!again || !undoes) {
-          book_counts(scene, true);
+          book_counts(scene, sums, true);
           throw_trouble(scene.blocks[where], *sums[where].trouble, clock);
         }
       }
       put_back(scene, layers, ledger);
       if (failed >= 0) {
-        undo_work(scene);
+        undo_work(scene, sums);
       }
     } else if (!again || std::isnan(worst.ratio)) {
       throw NumericalFailure(fmt::format(
@@ -362,7 +362,7 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
     clock.limit = {clock.dt, static_cast<int>(where), worst.cell, -1, DtCause::retry};
     ++scene.ledger.retries;
   }
-  book_counts(scene, true);
+  book_counts(scene, sums, true);
   for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
     Block<Dim>& b = scene.blocks[ib];
     scene.ledger.boundary_work += effects[ib].work;

@@ -2,6 +2,7 @@
 
 #include "ale/phases.hpp"
 #include "core/error.hpp"
+#include "core/stopwatch.hpp"
 #include "materials/visco.hpp"
 
 #include <algorithm>
@@ -201,6 +202,7 @@ template <int Dim> void prepare_tissue(Scene<Dim>& scene) {
 
 template <int Dim>
 void advance_tissue(Block<Dim>& b, const TissueRun<Dim>& run, double dt, TissueIntegrator& integrator, TissueScratch& scratch, StepSums<Dim>& sums) {
+  const Stopwatch watch(sums.tissue_seconds);
   MaterialSlot& slot = b.materials[run.material];
   const int r = b.grid.cell_row(run.j, run.k);
   const TissueLaw& law = *tissue_law(slot.material.strength);
@@ -290,7 +292,10 @@ template <int Dim> void book_tissue(Scene<Dim>& scene, const StepSums<Dim>& sums
   l.tissue_repairs += sums.tissue_repairs;
 }
 
-template <int Dim> void book_counts(Scene<Dim>& scene, bool stands) {
+template <int Dim> void book_counts(Scene<Dim>& scene, const std::vector<StepSums<Dim>>& sums, bool stands) {
+  for (const StepSums<Dim>& s : sums) {
+    scene.ledger.tissue_counts.seconds += s.tissue_seconds;
+  }
   for (TissueIntegrator& integrator : scene.tissue) {
     const TissueCounts all = integrator.counts();
     TissueCounts spent;
@@ -321,8 +326,8 @@ template void set_flow_stress<2>(MaterialSlot&, int, int, int);
 template void set_flow_stress<3>(MaterialSlot&, int, int, int);
 template void book_tissue<2>(Scene<2>&, const StepSums<2>&);
 template void book_tissue<3>(Scene<3>&, const StepSums<3>&);
-template void book_counts<2>(Scene<2>&, bool);
-template void book_counts<3>(Scene<3>&, bool);
+template void book_counts<2>(Scene<2>&, const std::vector<StepSums<2>>&, bool);
+template void book_counts<3>(Scene<3>&, const std::vector<StepSums<3>>&, bool);
 template void throw_trouble<2>(const Block<2>&, const TissueTrouble&, const Clock&);
 template void throw_trouble<3>(const Block<3>&, const TissueTrouble&, const Clock&);
 

@@ -46,8 +46,8 @@ template <int Dim> void set_flow_stress(MaterialSlot& slot, int row, int begin, 
 /// Adds a step's sums to the ledger.
 template <int Dim> void book_tissue(Scene<Dim>& scene, const StepSums<Dim>& sums);
 
-/// Takes the integrators' counts to the ledger; of a step that does not stand only what was spent on it and what failed.
-template <int Dim> void book_counts(Scene<Dim>& scene, bool stands);
+/// Takes the integrators' counts to the ledger; of a step that does not stand only what was spent on it and what failed. `sums`: by block.
+template <int Dim> void book_counts(Scene<Dim>& scene, const std::vector<StepSums<Dim>>& sums, bool stands);
 
 /// NumericalFailure naming cell, material and state.
 template <int Dim> [[noreturn]] void throw_trouble(const Block<Dim>& block, const TissueTrouble& trouble, const Clock& clock);

@@ -351,6 +351,7 @@ template <int Dim> void add_tissue(StepSums<Dim>& total, const StepSums<Dim>& s)
     add(total.tissue[m], s.tissue[m]);
   }
   total.tissue_repairs += s.tissue_repairs;
+  total.tissue_seconds += s.tissue_seconds;
   total.trouble = total.trouble ? total.trouble : s.trouble;
 }
 

@@ -40,6 +40,7 @@ void add(TissueCounts& to, const TissueCounts& more) {
   to.cvode.solves += more.cvode.solves;
   to.cvode.failures += more.cvode.failures;
   to.cvode.seconds += more.cvode.seconds;
+  to.seconds += more.seconds;
 }
 
 void TissueIntegrator::size_for(std::size_t cells) {

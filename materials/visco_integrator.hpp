@@ -36,6 +36,7 @@ struct TissueCounts {
   long stiff = 0;             ///< integrated by CVODE
   double worst_estimate = 0;  ///< of accepted cells
   BatchCounts cvode{};
+  double seconds = 0; ///< of all threads: rows of tissue from fields to fields, CVODE's part included
 };
 
 /// Sums; the larger worst estimate.

@@ -76,7 +76,7 @@ std::vector<double> pack_tissue(const Ledger& l) {
   const auto number = [](long n) { return static_cast<double>(n); };
   std::vector<double> v = {number(l.tissue_repairs), number(c.fast[0]), number(c.fast[1]), number(c.fast[2]), number(c.fast[3]), number(c.over),
                            number(c.no_number), number(c.stiff), c.worst_estimate, number(c.cvode.batches), number(c.cvode.cells),
-                           number(c.cvode.steps), number(c.cvode.rates), number(c.cvode.solves), number(c.cvode.failures), c.cvode.seconds};
+                           number(c.cvode.steps), number(c.cvode.rates), number(c.cvode.solves), number(c.cvode.failures), c.cvode.seconds, c.seconds};
   for (const TissueEnergy& e : l.tissue) {
     v.insert(v.end(), {e.work, e.dissipated, e.lost, e.floored});
   }
@@ -96,6 +96,7 @@ void unpack_tissue(const std::vector<double>& v, Ledger& l) {
     *n = count();
   }
   c.cvode.seconds = number();
+  c.seconds = number();
   l.tissue.clear();
   while (at < v.size()) {
     const double work = number(), dissipated = number(), lost = number(), floored = number();

@@ -267,6 +267,18 @@ TEST(Tissue, WorkIsStoredBecomesHeatOrIsBookedAsLost) {
   }
 }
 
+TEST(Tissue, SummarySaysWhichWayCellStepsWentAndWhatTheyTook) {
+  const nlohmann::json all = run_text<2>(impact(power_law, "mixed"), 1).summary, j = all["tissue"];
+  EXPECT_GT(j["branch_steps"]["by_1_substep"].get<long>(), 1000);
+  EXPECT_GT(j["branch_steps"]["by_cvode"].get<long>(), 100);
+  EXPECT_GT(j["cvode"]["steps"].get<long>(), 100);
+  EXPECT_EQ(j["cvode"]["failures"].get<long>(), 0);
+  const double cvode = j["seconds_of_all_threads"]["cvode"], rest = j["seconds_of_all_threads"]["fast_path_and_the_rest"];
+  EXPECT_GT(cvode, 0);
+  EXPECT_GT(rest, 0);
+  EXPECT_LT(cvode + rest, all["wall_seconds"].get<double>()); // one thread
+}
+
 TEST(Tissue, ThatCannotBeIntegratedStopsTheRunWithItsCellAndState) {
   Scene<2> scene = build_scene<2>(spec_of(impact(boyce, "cvode")), 1);
   Clock clock;
