@@ -64,6 +64,43 @@ TEST(BergstroemBoyce, HistoriesByCvodeAreTheIndependentOnes) {
   }
 }
 
+struct Heat {
+  double heat = 0, work = 0; ///< J/m3 over a history; work without its sign
+};
+Heat heat_of(const History& h, double tolerance, std::size_t stride) {
+  const exact::ReferenceTable table(std::string(BALLAST_TEST_DATA) + "/" + h.file + ".csv");
+  const bool shear = std::string(h.file).find("shear") != std::string::npos;
+  TissueOptions options = by_path(BranchPath::cvode);
+  options.cvode.tolerance = tolerance;
+  TissueIntegrator integrator(options);
+  Points p(h.law, 1);
+  Mat before = unit_mat;
+  double t = 0;
+  Heat sum;
+  for (std::size_t r = stride; r < table.row_count(); r += stride) {
+    const Mat now = shear ? sheared(table.number(r, "k")) : stretched(table.number(r, "lambda"));
+    p.move(0, midpoint_gradient(before, now), table.number(r, "t") - t);
+    EXPECT_FALSE(integrator.advance(h.law, p.row));
+    before = now;
+    t = table.number(r, "t");
+    sum.heat += p.dissipated[0];
+    sum.work += std::abs(p.work[0]);
+  }
+  return sum;
+}
+
+TEST(BergstroemBoyce, HeatByCvodeFollowsItsToleranceThoughItHasNoSayInTheError) {
+  for (const History& h : histories()) {
+    for (const std::size_t stride : {1UL, 4UL, 12UL}) {
+      const Heat exact = heat_of(h, 1e-10, stride);
+      // Measured, of the work: at most 1.8e-3, 8e-4, 1.7e-4, 3.7e-5.
+      for (const auto& [tolerance, most] : {std::pair{1e-3, 4e-3}, {1e-4, 1.6e-3}, {1e-5, 4e-4}, {1e-6, 8e-5}}) {
+        EXPECT_NEAR(heat_of(h, tolerance, stride).heat, exact.heat, most * exact.work) << h.file << " " << stride << " " << tolerance;
+      }
+    }
+  }
+}
+
 TEST(BergstroemBoyce, HistoriesByTheFastPathConvergeAtSecondOrder) {
   for (const History& h : histories()) {
     const double two = history_error(h, by_path(BranchPath::fixed, 2), 1), four = history_error(h, by_path(BranchPath::fixed, 4), 1);

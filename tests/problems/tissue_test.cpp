@@ -46,6 +46,13 @@ y = {{ from = "0 mm", to = "12 mm", size = "1 mm" }}
                      law, sleeping);
 }
 
+TEST(Tissue, CvodeOfTheMixGetsATenthOfItsTolerance) {
+  EXPECT_DOUBLE_EQ(spec_of(quiet(boyce, false)).numerics.tissue.cvode.tolerance, 1e-4); // of 1e-3
+  const TissueOptions o = spec_of(impact(power_law, "mixed")).numerics.tissue;
+  EXPECT_DOUBLE_EQ(o.tolerance, 1e-4);
+  EXPECT_DOUBLE_EQ(o.cvode.tolerance, 1e-5);
+}
+
 TEST(Tissue, AtRestUnderOneAtmosphereNothingEverMoves) {
   for (const char* law : {prony, power_law, fung, boyce}) {
     std::vector<std::uint64_t> bits;
