@@ -60,4 +60,28 @@ private:
   std::vector<char> clean_; ///< by row: all zero
 };
 
+/// Sums the corners at node row q of the plane between `below` and `here`, per component.
+template <int Dim>
+void gather(CornerSlab<Dim>& below, CornerSlab<Dim>& here, int q, Span nodes, double* const (&force)[Dim]) {
+  const auto add = [&](const CornerRows<Dim>& rows, int at_i, int at_im1) {
+    for (int d = 0; d < Dim; ++d) {
+      const double *a = rows.f[at_i][d], *c = rows.f[at_im1][d] - 1;
+      double* f = force[d];
+#pragma omp simd
+      for (int i = nodes.begin; i < nodes.end; ++i) {
+        f[i] += a[i] + c[i];
+      }
+    }
+  };
+  if constexpr (Dim == 2) {
+    add(here.row(0), 0, 1);
+    add(below.row(0), 3, 2);
+  } else {
+    add(here.row(q), 0, 1);
+    add(here.row(q - 1), 3, 2);
+    add(below.row(q), 4, 5);
+    add(below.row(q - 1), 7, 6);
+  }
+}
+
 } // namespace ballast

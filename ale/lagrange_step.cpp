@@ -8,6 +8,7 @@
 #include "ale/phases.hpp"
 #include "ale/rest.hpp"
 #include "ale/step_undo.hpp"
+#include "ale/tissue_half.hpp"
 #include "ale/tissue_update.hpp"
 #include "core/error.hpp"
 
@@ -37,30 +38,6 @@ void fill_slab(const Scene<Dim>& scene, const Embedding<Dim>* embedded, const Bl
         override_forces(scene, *embedded, j, k, rows);
       }
     }
-  }
-}
-
-/// Sums the corners at node row q of the plane between `below` and `here`, per component.
-template <int Dim>
-void gather(CornerSlab<Dim>& below, CornerSlab<Dim>& here, int q, Span nodes, double* const (&force)[Dim]) {
-  const auto add = [&](const CornerRows<Dim>& rows, int at_i, int at_im1) {
-    for (int d = 0; d < Dim; ++d) {
-      const double *a = rows.f[at_i][d], *c = rows.f[at_im1][d] - 1;
-      double* f = force[d];
-#pragma omp simd
-      for (int i = nodes.begin; i < nodes.end; ++i) {
-        f[i] += a[i] + c[i];
-      }
-    }
-  };
-  if constexpr (Dim == 2) {
-    add(here.row(0), 0, 1);
-    add(below.row(0), 3, 2);
-  } else {
-    add(here.row(q), 0, 1);
-    add(here.row(q - 1), 3, 2);
-    add(below.row(q), 4, 5);
-    add(below.row(q - 1), 7, 6);
   }
 }
 
@@ -323,6 +300,7 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
     const bool again = attempt < most_retries;
     WorstCell worst;
     std::size_t where = 0;
+    relax_to_half(scene, clock.dt);
     for (const auto& e : scene.embedded) {
       cut_forces(scene, *e, clock.dt);
     }

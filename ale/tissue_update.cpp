@@ -15,14 +15,6 @@ namespace ballast {
 
 namespace {
 
-/// Of a tensor's six components (xx yy zz xy yz zx) those that are the stress fields, in their order.
-template <int Dim> constexpr std::array<std::size_t, stress_components<Dim>> stress_of_tensor() {
-  if constexpr (Dim == 2) {
-    return {0, 1, 3};
-  } else {
-    return {0, 1, 3, 4, 5};
-  }
-}
 /// Components of a 3x3 gradient that a run gives, in their order.
 template <int Dim> constexpr std::array<std::size_t, Dim == 2 ? 5 : 9> gradient_of_run() {
   if constexpr (Dim == 2) {

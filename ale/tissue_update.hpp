@@ -12,6 +12,15 @@
 
 namespace ballast {
 
+/// Of a tensor's six components (xx yy zz xy yz zx) those that are the stress fields, in their order.
+template <int Dim> constexpr std::array<std::size_t, stress_components<Dim>> stress_of_tensor() {
+  if constexpr (Dim == 2) {
+    return {0, 1, 3};
+  } else {
+    return {0, 1, 3, 4, 5};
+  }
+}
+
 /// Cells [begin, begin + count) of row (j, k) that hold a viscoelastic material.
 template <int Dim> struct TissueRun {
   std::size_t material = 0;
