@@ -38,6 +38,7 @@ template <int Dim> struct StepSums {
   std::vector<TissueEnergy> tissue;     ///< by material; empty without a viscoelastic one
   long tissue_repairs = 0;
   std::optional<TissueTrouble> trouble; ///< the first
+  double tissue_seconds = 0; ///< of all threads
 };
 
 /// Work of the step's forces on every cell, shared among its materials; volumes, deviators and plastic strain after

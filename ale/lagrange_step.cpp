@@ -1,11 +1,14 @@
 // The Lagrangian step: predict, corner forces, accelerate, move, then work, closure, strength, state.
 #include "ale/absorbing.hpp"
+#include "ale/corner_slab.hpp"
 #include "ale/embedding_cells.hpp"
 #include "ale/lagrange_parts.hpp"
 #include "ale/layer_coupling.hpp"
 #include "ale/outflow.hpp"
 #include "ale/phases.hpp"
 #include "ale/rest.hpp"
+#include "ale/step_undo.hpp"
+#include "ale/tissue_half.hpp"
 #include "ale/tissue_update.hpp"
 #include "core/error.hpp"
 
@@ -17,57 +20,6 @@
 namespace ballast {
 
 namespace {
-
-/// Corner forces of one slab, rolling: rows padded so that neighbours outside the block read zeros.
-template <int Dim> class CornerSlab {
-public:
-  explicit CornerSlab(const Grid& g)
-      : pitch_(g.cells[0] + 2), rows_(Dim == 3 ? g.cells[1] + 2 : 1),
-        data_(static_cast<std::size_t>(components * pitch_ * rows_), 0.0), clean_(static_cast<std::size_t>(rows_), 1) {}
-
-  /// Row r (-1 .. n in 3D, 0 in 2D), for some of its cells to be written; it is zero elsewhere.
-  CornerRows<Dim> row_for(int r, Span cells) {
-    const int at = Dim == 3 ? r + 1 : 0;
-    if (cells.count() < pitch_ - 2) {
-      clear(at);
-    }
-    clean_[static_cast<std::size_t>(at)] = cells.empty() ? 1 : 0;
-    return row(r);
-  }
-  CornerRows<Dim> row(int r) {
-    CornerRows<Dim> out{};
-    for (int p = 0; p < (1 << Dim); ++p) {
-      for (int d = 0; d < Dim; ++d) {
-        out.f[p][d] = data_.data() + ((Dim == 3 ? r + 1 : 0) * components + p * Dim + d) * pitch_ + 1;
-      }
-    }
-    return out;
-  }
-  void clear() {
-    for (int at = 0; at < rows_; ++at) {
-      clear(at);
-    }
-  }
-  void swap(CornerSlab& other) {
-    data_.swap(other.data_);
-    clean_.swap(other.clean_);
-  }
-
-private:
-  static constexpr int components = Dim << Dim;
-
-  void clear(int at) {
-    if (clean_[static_cast<std::size_t>(at)] == 0) {
-      double* first = data_.data() + at * components * pitch_;
-      std::fill(first, first + components * pitch_, 0.0);
-      clean_[static_cast<std::size_t>(at)] = 1;
-    }
-  }
-
-  int pitch_, rows_;
-  std::vector<double> data_;
-  std::vector<char> clean_; ///< by row: all zero
-};
 
 template <int Dim>
 void fill_slab(const Scene<Dim>& scene, const Embedding<Dim>* embedded, const Block<Dim>& b, const ForceCoefficients& c, int slab, CornerSlab<Dim>& out) {
@@ -86,30 +38,6 @@ void fill_slab(const Scene<Dim>& scene, const Embedding<Dim>* embedded, const Bl
         override_forces(scene, *embedded, j, k, rows);
       }
     }
-  }
-}
-
-/// Sums the corners at node row q of the plane between `below` and `here`, per component.
-template <int Dim>
-void gather(CornerSlab<Dim>& below, CornerSlab<Dim>& here, int q, Span nodes, double* const (&force)[Dim]) {
-  const auto add = [&](const CornerRows<Dim>& rows, int at_i, int at_im1) {
-    for (int d = 0; d < Dim; ++d) {
-      const double *a = rows.f[at_i][d], *c = rows.f[at_im1][d] - 1;
-      double* f = force[d];
-#pragma omp simd
-      for (int i = nodes.begin; i < nodes.end; ++i) {
-        f[i] += a[i] + c[i];
-      }
-    }
-  };
-  if constexpr (Dim == 2) {
-    add(here.row(0), 0, 1);
-    add(below.row(0), 3, 2);
-  } else {
-    add(here.row(q), 0, 1);
-    add(here.row(q - 1), 3, 2);
-    add(below.row(q), 4, 5);
-    add(below.row(q - 1), 7, 6);
   }
 }
 
@@ -322,6 +250,41 @@ template <int Dim> bool move_layers(Scene<Dim>& scene, const Clock& clock, bool 
   return true;
 }
 
+/// Work of all blocks. The number of the first where tissue could not be integrated, or -1.
+template <int Dim> int work_passes(Scene<Dim>& scene, double dt, std::vector<StepSums<Dim>>& sums) {
+  for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
+    sums[ib] = work_pass(scene, scene.blocks[ib], dt);
+  }
+  const auto failed = std::find_if(sums.begin(), sums.end(), [](const StepSums<Dim>& s) { return s.trouble.has_value(); });
+  return failed == sums.end() ? -1 : static_cast<int>(failed - sums.begin());
+}
+
+/// Keeps all blocks' cells if any block may have to take the step again. Returns whether.
+template <int Dim> bool prepare_undo(Scene<Dim>& scene) {
+  const bool any = std::any_of(scene.blocks.begin(), scene.blocks.end(), [](const Block<Dim>& b) { return integrates_tissue(b); });
+  scene.undo.resize(any ? scene.blocks.size() : 0);
+  return any;
+}
+
+/// Layers and ledger as before the step, but for what counts attempts.
+template <int Dim> void put_back(Scene<Dim>& scene, const std::vector<Layers<Dim>>& layers, const Ledger& ledger) {
+  scene.layers = layers;
+  const Ledger spent = std::exchange(scene.ledger, ledger);
+  scene.ledger.retries = spent.retries;
+  scene.ledger.tissue_counts = spent.tissue_counts;
+}
+
+/// Cells, too, and what embeddings know of the layers, which are put back.
+template <int Dim> void undo_work(Scene<Dim>& scene, const std::vector<StepSums<Dim>>& sums) {
+  for (std::size_t ib = 0; ib < scene.undo.size(); ++ib) {
+    undo_rows(scene.blocks[ib], scene.undo[ib]);
+  }
+  for (const auto& e : scene.embedded) {
+    find_least_thickness(scene, *e);
+  }
+  book_counts(scene, sums, false);
+}
+
 constexpr double smallest_volume_ratio = 0.2; // of one step; below it the step is retried smaller
 constexpr int most_retries = 30;
 
@@ -329,11 +292,15 @@ constexpr int most_retries = 30;
 
 template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
   std::vector<BoundaryEffect> effects(scene.blocks.size());
-  const auto layers = scene.embedded.empty() ? std::vector<Layers<Dim>>{} : scene.layers;
+  std::vector<StepSums<Dim>> sums(scene.blocks.size());
+  const bool undoes = prepare_undo(scene);
+  const auto layers = scene.embedded.empty() && !undoes ? std::vector<Layers<Dim>>{} : scene.layers;
   const Ledger ledger = scene.ledger; // both as they were
   for (int attempt = 0;; ++attempt) {
+    const bool again = attempt < most_retries;
     WorstCell worst;
     std::size_t where = 0;
+    relax_to_half(scene, clock.dt);
     for (const auto& e : scene.embedded) {
       cut_forces(scene, *e, clock.dt);
     }
@@ -346,14 +313,24 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
       }
     }
     if (worst.ratio >= smallest_volume_ratio) {
-      if (move_layers(scene, clock, attempt < most_retries)) {
+      const bool moved = move_layers(scene, clock, again);
+      const int failed = moved ? work_passes(scene, clock.dt, sums) : -1;
+      if (moved && failed < 0) {
         break;
       }
-      const long retries = scene.ledger.retries;
-      scene.layers = layers;
-      scene.ledger = ledger;
-      scene.ledger.retries = retries;
-    } else if (attempt >= most_retries || std::isnan(worst.ratio)) {
+      if (failed >= 0) {
+        where = static_cast<std::size_t>(failed);
+        worst.cell = sums[where].trouble->cell;
+        if (!again || !undoes) {
+          book_counts(scene, sums, true);
+          throw_trouble(scene.blocks[where], *sums[where].trouble, clock);
+        }
+      }
+      put_back(scene, layers, ledger);
+      if (failed >= 0) {
+        undo_work(scene, sums);
+      }
+    } else if (!again || std::isnan(worst.ratio)) {
       throw NumericalFailure(fmt::format(
           "block {}, cell ({}, {}, {}), material {}: volume would fall to {:g} of its value at time {:g} s, dt {:g} s",
           scene.blocks[where].name, worst.cell[0], worst.cell[1], worst.cell[2],
@@ -363,21 +340,21 @@ template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock) {
     clock.limit = {clock.dt, static_cast<int>(where), worst.cell, -1, DtCause::retry};
     ++scene.ledger.retries;
   }
+  book_counts(scene, sums, true);
   for (std::size_t ib = 0; ib < scene.blocks.size(); ++ib) {
     Block<Dim>& b = scene.blocks[ib];
-    const StepSums<Dim> sums = work_pass(scene, b, clock.dt);
     scene.ledger.boundary_work += effects[ib].work;
-    for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t d = 0; d < Dim; ++d) {
       scene.ledger.momentum_out[d] -= effects[ib].impulse[d];
     }
-    scene.ledger.void_work += sums.void_work;
-    scene.ledger.ambient_work -= b.reference_pressure * sums.swept_volume;
-    book_tissue(scene, b, sums, clock);
-    if (sums.failed > 0) {
-      const auto& c = sums.failed_cell;
+    scene.ledger.void_work += sums[ib].void_work;
+    scene.ledger.ambient_work -= b.reference_pressure * sums[ib].swept_volume;
+    book_tissue(scene, sums[ib]);
+    if (sums[ib].failed > 0) {
+      const auto& c = sums[ib].failed_cell;
       throw NumericalFailure(fmt::format("block {}, from cell ({}, {}, {}) on, material {}: the return to the yield surface (equivalent stress, Pa) did not "
           "converge in {} cells at time {:g} s",
-          b.name, c[0], c[1], c[2], contents(b, c), sums.failed, clock.time));
+          b.name, c[0], c[1], c[2], contents(b, c), sums[ib].failed, clock.time));
     }
     for (std::size_t d = 0; d < Dim; ++d) {
       b.position[d].swap(b.next_position[d]);

@@ -4,9 +4,9 @@
 #include "ale/embedding.hpp"
 #include "ale/layers/layer_erosion.hpp"
 #include "core/error.hpp"
+#include "core/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -24,19 +24,6 @@ template <int Dim> std::vector<char> exposed(const LayerStack<Dim>& stack, bool 
   }
   return out;
 }
-
-/// Adds the time until its end to a count of seconds.
-class Stopwatch {
-public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Does a block's side face away from a stack?
 template <int Dim> bool turned_away(const BlockSurface<Dim>& side, bool above) { return side.axis == Dim - 1 && side.side == (above ? 0 : 1); }

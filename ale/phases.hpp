@@ -39,7 +39,7 @@ double conduction_wall(const MaterialSlot& slot);
 /// Strain rates, lengths and viscosity along the logical axes, and the largest stable step.
 template <int Dim> DtLimit stable_dt(Scene<Dim>& scene);
 
-/// One Lagrangian step of all blocks; retries with half of clock.dt when a cell would invert. Leaves the blocks'
+/// One Lagrangian step of all blocks; retries with half of clock.dt when a cell would invert or tissue cannot be integrated. Leaves the blocks'
 /// state (pressures, owners) as it was: new_state comes next.
 template <int Dim> void lagrange_step(Scene<Dim>& scene, Clock& clock);
 

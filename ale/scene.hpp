@@ -3,6 +3,7 @@
 
 #include "ale/block.hpp"
 #include "ale/layers/layers.hpp"
+#include "ale/step_undo.hpp"
 #include "core/threads.hpp"
 #include "materials/visco_integrator.hpp"
 #include "remap/normal.hpp"
@@ -59,10 +60,18 @@ struct Clock {
 };
 
 /// Of a viscoelastic material since the start, J: work of its deviator, what of it became heat, and free energy that a remap
-/// (a mixture holds less than its parts), an interface (ale/traction) or a sliver took. What is stored is the free energy's sum.
+/// (a mixture holds less than its parts; Fung's may hold more, then it counts as negative), an interface (ale/traction) or a sliver
+/// took. What is stored is the free energy's sum.
 struct TissueEnergy {
   double work = 0, dissipated = 0, lost = 0;
+  double floored = 0; ///< J of the work that no force has done: heat of Fung branches raised to 0 in steps that are too stiff for them
 };
+inline void add(TissueEnergy& to, const TissueEnergy& more) {
+  to.work += more.work;
+  to.dissipated += more.dissipated;
+  to.lost += more.lost;
+  to.floored += more.floored;
+}
 
 /// Energy and mass that left or entered by a named door; all zero in a closed Lagrangian gas run.
 struct Ledger {
@@ -99,6 +108,7 @@ template <int Dim> struct Scene {
   Ledger ledger;
   std::vector<TissueIntegrator> tissue; ///< one a thread
   std::unique_ptr<ThreadPool> pool = std::make_unique<ThreadPool>(1);
+  std::vector<StepUndo> undo; ///< by block, of the step at hand; empty unless tissue is integrated
 };
 
 } // namespace ballast

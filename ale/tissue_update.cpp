@@ -2,6 +2,7 @@
 
 #include "ale/phases.hpp"
 #include "core/error.hpp"
+#include "core/stopwatch.hpp"
 #include "materials/visco.hpp"
 
 #include <algorithm>
@@ -14,14 +15,6 @@ namespace ballast {
 
 namespace {
 
-/// Of a tensor's six components (xx yy zz xy yz zx) those that are the stress fields, in their order.
-template <int Dim> constexpr std::array<std::size_t, stress_components<Dim>> stress_of_tensor() {
-  if constexpr (Dim == 2) {
-    return {0, 1, 3};
-  } else {
-    return {0, 1, 3, 4, 5};
-  }
-}
 /// Components of a 3x3 gradient that a run gives, in their order.
 template <int Dim> constexpr std::array<std::size_t, Dim == 2 ? 5 : 9> gradient_of_run() {
   if constexpr (Dim == 2) {
@@ -34,7 +27,7 @@ template <int Dim> constexpr std::array<std::size_t, Dim == 2 ? 5 : 9> gradient_
 /// Everything a law reads and writes, for the active cells of a run, in one array.
 ViscoRow lay_out(std::vector<double>& data, int cells, std::size_t tensors, double dt) {
   const auto n = static_cast<std::size_t>(cells);
-  data.assign((9 + 1 + 6 * tensors + 6 + 3) * n, 0.0);
+  data.assign((9 + 1 + 6 * tensors + 6 + 4) * n, 0.0);
   double* at = data.data();
   const auto next = [&] { return std::exchange(at, at + n); };
   ViscoRow row;
@@ -53,6 +46,7 @@ ViscoRow lay_out(std::vector<double>& data, int cells, std::size_t tensors, doub
   row.stored = next();
   row.dissipated = next();
   row.work = next();
+  row.floored = next();
   return row;
 }
 
@@ -200,6 +194,7 @@ template <int Dim> void prepare_tissue(Scene<Dim>& scene) {
 
 template <int Dim>
 void advance_tissue(Block<Dim>& b, const TissueRun<Dim>& run, double dt, TissueIntegrator& integrator, TissueScratch& scratch, StepSums<Dim>& sums) {
+  const Stopwatch watch(sums.tissue_seconds);
   MaterialSlot& slot = b.materials[run.material];
   const int r = b.grid.cell_row(run.j, run.k);
   const TissueLaw& law = *tissue_law(slot.material.strength);
@@ -226,6 +221,7 @@ void advance_tissue(Block<Dim>& b, const TissueRun<Dim>& run, double dt, TissueI
     const double volume = fields.mass[i] / slot.material.density, before = fields.energy[i] * fields.mass[i];
     fields.energy[i] = row.stored[n] / slot.material.density;
     energy.work += row.work[n] * volume;
+    energy.floored += row.floored[n] * volume;
     energy.dissipated += row.dissipated[n] * volume;
     energy.lost += before - (row.stored[n] - row.work[n] + row.dissipated[n]) * volume;
   }
@@ -280,26 +276,34 @@ template <int Dim> void set_flow_stress(MaterialSlot& slot, int r, int begin, in
   }
 }
 
-template <int Dim> void book_tissue(Scene<Dim>& scene, const Block<Dim>& b, const StepSums<Dim>& sums, const Clock& clock) {
+template <int Dim> void book_tissue(Scene<Dim>& scene, const StepSums<Dim>& sums) {
   Ledger& l = scene.ledger;
   for (std::size_t m = 0; m < sums.tissue.size(); ++m) {
-    l.tissue[m].work += sums.tissue[m].work;
-    l.tissue[m].dissipated += sums.tissue[m].dissipated;
-    l.tissue[m].lost += sums.tissue[m].lost;
+    add(l.tissue[m], sums.tissue[m]);
   }
   l.tissue_repairs += sums.tissue_repairs;
+}
+
+template <int Dim> void book_counts(Scene<Dim>& scene, const std::vector<StepSums<Dim>>& sums, bool stands) {
+  for (const StepSums<Dim>& s : sums) {
+    scene.ledger.tissue_counts.seconds += s.tissue_seconds;
+  }
   for (TissueIntegrator& integrator : scene.tissue) {
-    add(l.tissue_counts, integrator.counts());
+    const TissueCounts all = integrator.counts();
+    TissueCounts spent;
+    spent.no_number = all.no_number;
+    spent.cvode = all.cvode;
+    add(scene.ledger.tissue_counts, stands ? all : spent);
     integrator.reset_counts();
   }
-  if (sums.trouble) {
-    const TissueTrouble& t = *sums.trouble;
-    throw NumericalFailure(fmt::format(
-        "block {}, cell ({}, {}, {}), material {}: branch {} of {} could not be integrated (reason {}, {:.3g} of the step done, state there {:g}) at time "
-        "{:g} s, dt {:g} s",
-        b.name, t.cell[0], t.cell[1], t.cell[2], b.materials[t.material].material.name, t.failure.branch + 1,
-        describe(b.materials[t.material].material.strength), t.failure.reason, t.failure.reached, fmt::join(t.failure.state, " "), clock.time, clock.dt));
-  }
+}
+
+template <int Dim> void throw_trouble(const Block<Dim>& b, const TissueTrouble& t, const Clock& clock) {
+  throw NumericalFailure(fmt::format(
+      "block {}, cell ({}, {}, {}), material {}: branch {} of {} could not be integrated (reason {}, {:.3g} of the step done, state there {:g}) at time "
+      "{:g} s, dt {:g} s",
+      b.name, t.cell[0], t.cell[1], t.cell[2], b.materials[t.material].material.name, t.failure.branch + 1,
+      describe(b.materials[t.material].material.strength), t.failure.reason, t.failure.reached, fmt::join(t.failure.state, " "), clock.time, clock.dt));
 }
 
 template void prepare_tissue<2>(Scene<2>&);
@@ -312,7 +316,11 @@ template void free_memory<2>(MaterialSlot&, const std::array<double, 3>&, const 
 template void free_memory<3>(MaterialSlot&, const std::array<double, 3>&, const std::array<double, 3>&, int, int);
 template void set_flow_stress<2>(MaterialSlot&, int, int, int);
 template void set_flow_stress<3>(MaterialSlot&, int, int, int);
-template void book_tissue<2>(Scene<2>&, const Block<2>&, const StepSums<2>&, const Clock&);
-template void book_tissue<3>(Scene<3>&, const Block<3>&, const StepSums<3>&, const Clock&);
+template void book_tissue<2>(Scene<2>&, const StepSums<2>&);
+template void book_tissue<3>(Scene<3>&, const StepSums<3>&);
+template void book_counts<2>(Scene<2>&, const std::vector<StepSums<2>>&, bool);
+template void book_counts<3>(Scene<3>&, const std::vector<StepSums<3>>&, bool);
+template void throw_trouble<2>(const Block<2>&, const TissueTrouble&, const Clock&);
+template void throw_trouble<3>(const Block<3>&, const TissueTrouble&, const Clock&);
 
 } // namespace ballast

@@ -12,6 +12,15 @@
 
 namespace ballast {
 
+/// Of a tensor's six components (xx yy zz xy yz zx) those that are the stress fields, in their order.
+template <int Dim> constexpr std::array<std::size_t, stress_components<Dim>> stress_of_tensor() {
+  if constexpr (Dim == 2) {
+    return {0, 1, 3};
+  } else {
+    return {0, 1, 3, 4, 5};
+  }
+}
+
 /// Cells [begin, begin + count) of row (j, k) that hold a viscoelastic material.
 template <int Dim> struct TissueRun {
   std::size_t material = 0;
@@ -29,7 +38,7 @@ struct TissueScratch {
 template <int Dim> void prepare_tissue(Scene<Dim>& scene);
 
 /// One step of a run; cells' next_volume, masses and fractions must be those of its end. Adds to sums.tissue; what cannot be
-/// integrated keeps its memory and is reported in sums.trouble.
+/// integrated is reported in sums.trouble: the row is then good for nothing.
 template <int Dim>
 void advance_tissue(Block<Dim>& block, const TissueRun<Dim>& run, double dt, TissueIntegrator& integrator, TissueScratch& scratch, StepSums<Dim>& sums);
 
@@ -43,7 +52,13 @@ template <int Dim> void free_memory(MaterialSlot& slot, const std::array<double,
 /// Sets the flow stresses of cells of a row: far above what the deviator is or soon can be, so that nothing is cut back to them.
 template <int Dim> void set_flow_stress(MaterialSlot& slot, int row, int begin, int count);
 
-/// Adds a step's sums to the ledger; throws NumericalFailure naming cell, material and state if a cell could not be integrated.
-template <int Dim> void book_tissue(Scene<Dim>& scene, const Block<Dim>& block, const StepSums<Dim>& sums, const Clock& clock);
+/// Adds a step's sums to the ledger.
+template <int Dim> void book_tissue(Scene<Dim>& scene, const StepSums<Dim>& sums);
+
+/// Takes the integrators' counts to the ledger; of a step that does not stand only what was spent on it and what failed. `sums`: by block.
+template <int Dim> void book_counts(Scene<Dim>& scene, const std::vector<StepSums<Dim>>& sums, bool stands);
+
+/// NumericalFailure naming cell, material and state.
+template <int Dim> [[noreturn]] void throw_trouble(const Block<Dim>& block, const TissueTrouble& trouble, const Clock& clock);
 
 } // namespace ballast

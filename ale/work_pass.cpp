@@ -2,6 +2,7 @@
 #include "ale/closure.hpp"
 #include "ale/embedding.hpp"
 #include "ale/lagrange_parts.hpp"
+#include "ale/step_undo.hpp"
 #include "ale/strength_update.hpp"
 #include "ale/tissue_update.hpp"
 #include "ale/traction.hpp"
@@ -31,6 +32,7 @@ template <int Dim> struct WorkBuffer {
   double dt = 0;
   TissueIntegrator* integrator = nullptr; ///< of the thread; null without tissue
   TissueScratch tissue;
+  StepUndo* undo = nullptr; ///< null where the step is never taken back
 
   WorkBuffer(int count, bool strength) : data(static_cast<std::size_t>((3 + gradients) * count)) {
     double* p = data.data();
@@ -294,6 +296,9 @@ void advance_row(Scene<Dim>& scene,
   }
   buffer.j = j;
   buffer.k = k;
+  if (buffer.undo != nullptr) {
+    keep_row(b, r, cells, *buffer.undo);
+  }
   const double* next[Dim][ForceRows<Dim>::lines];
   for (std::size_t d = 0; d < Dim; ++d) {
     for (int l = 0; l < ForceRows<Dim>::lines; ++l) {
@@ -343,11 +348,10 @@ void advance_row(Scene<Dim>& scene,
 
 template <int Dim> void add_tissue(StepSums<Dim>& total, const StepSums<Dim>& s) {
   for (std::size_t m = 0; m < total.tissue.size(); ++m) {
-    total.tissue[m].work += s.tissue[m].work;
-    total.tissue[m].dissipated += s.tissue[m].dissipated;
-    total.tissue[m].lost += s.tissue[m].lost;
+    add(total.tissue[m], s.tissue[m]);
   }
   total.tissue_repairs += s.tissue_repairs;
+  total.tissue_seconds += s.tissue_seconds;
   total.trouble = total.trouble ? total.trouble : s.trouble;
 }
 
@@ -360,9 +364,14 @@ template <int Dim> StepSums<Dim> work_pass(Scene<Dim>& scene, Block<Dim>& b, dou
   StepSums<Dim> total;
   total.tissue.resize(remembers ? b.materials.size() : 0);
   std::vector<StepSums<Dim>> sums(static_cast<std::size_t>(g.slabs()), total);
+  StepUndo* const undo = scene.undo.empty() ? nullptr : &scene.undo[static_cast<std::size_t>(&b - scene.blocks.data())];
+  if (undo != nullptr) {
+    begin_undo(b, *undo);
+  }
   parallel_awake(*scene.pool, &b.awake, g.slabs(), [&](int begin, int end, int thread) {
     WorkBuffer<Dim> buffer(g.cells[0], b.any_strength());
     buffer.dt = dt;
+    buffer.undo = undo;
     buffer.integrator = remembers ? &scene.tissue[static_cast<std::size_t>(thread)] : nullptr;
     for (int s = begin; s < end; ++s) {
       for (int q = 0; q < g.rows_per_slab(); ++q) {

@@ -69,7 +69,9 @@ int rate_callback(realtype s, N_Vector y, N_Vector out, void* user) {
     Sym rate;
     system.rate(system, c, s, load(from + width * c), rate, to[width * c + 6]);
     std::copy_n(rate.data(), 6, to + width * c);
-    sum += to[width * c + 6];
+    for (std::size_t a = width * c; a < width * (c + 1); ++a) {
+      sum += to[a];
+    }
   }
   return std::isfinite(sum) ? 0 : 1; // 1: CVODE tries a smaller step
 }
@@ -89,21 +91,9 @@ int weight_callback(N_Vector y, N_Vector weight, void* user) {
 }
 
 /// In place of the mean over all variables: the worst cell's.
-double worst_cell_norm(N_Vector v, N_Vector weight) {
-  const double* x = N_VGetArrayPointer(v);
-  const double* w = N_VGetArrayPointer(weight);
-  double worst = 0;
-  for (std::size_t at = 0; at < static_cast<std::size_t>(N_VGetLength(v)); at += width) {
-    double sum = 0;
-    for (std::size_t a = at; a < at + 6; ++a) {
-      sum += x[a] * w[a] * x[a] * w[a];
-    }
-    if (sum != sum) {
-      return sum; // no number in any cell is none for all
-    }
-    worst = std::max(worst, sum);
-  }
-  return std::sqrt(worst / 6);
+double norm_callback(N_Vector v, N_Vector weight) {
+  const auto size = static_cast<std::size_t>(N_VGetLength(v));
+  return worst_cell_norm({N_VGetArrayPointer(v), size}, {N_VGetArrayPointer(weight), size});
 }
 
 double dot(const Sym& a, const Sym& b) {
@@ -164,17 +154,17 @@ void stay_silent(int, const char*, const char*, char*, void*) {} // failures are
 /// CVODE for one number of cells, over a buffer of its own.
 class Batch {
 public:
-  Batch(SUNContext context, std::size_t cells, double tolerance) : storage_(width * cells) {
-    job_.tolerance = tolerance;
+  Batch(SUNContext context, std::size_t cells, const BatchOptions& options) : storage_(width * cells) {
+    job_.tolerance = options.tolerance;
     y_ = N_VMake_Serial(static_cast<sunindextype>(storage_.size()), storage_.data(), context);
-    y_->ops->nvwrmsnorm = worst_cell_norm;
+    y_->ops->nvwrmsnorm = norm_callback;
     cvode_ = CVodeCreate(CV_BDF, context);
     job_.cvode = cvode_;
     CVodeSetErrHandlerFn(cvode_, stay_silent, nullptr);
     CVodeInit(cvode_, rate_callback, 0.0, y_);
     CVodeWFtolerances(cvode_, weight_callback);
     CVodeSetUserData(cvode_, &job_);
-    CVodeSetMaxNumSteps(cvode_, 5000);
+    CVodeSetMaxNumSteps(cvode_, options.most_steps);
     solver_ = SUNLinSolNewEmpty(context);
     solver_->content = &job_;
     solver_->ops->gettype = solver_type;
@@ -234,6 +224,21 @@ private:
 
 } // namespace
 
+double worst_cell_norm(std::span<const double> values, std::span<const double> weights) {
+  double worst = 0;
+  for (std::size_t at = 0; at < values.size(); at += width) {
+    double sum = 0;
+    for (std::size_t a = at; a < at + 6; ++a) {
+      sum += values[a] * weights[a] * values[a] * weights[a];
+    }
+    if (sum != sum) {
+      return sum; // std::max would drop it
+    }
+    worst = std::max(worst, sum);
+  }
+  return std::sqrt(worst / 6);
+}
+
 struct BatchSolver::Impl {
   BatchOptions options;
   BatchCounts counts;
@@ -249,15 +254,15 @@ struct BatchSolver::Impl {
   Batch& batch_for(std::size_t cells) {
     const auto k = static_cast<std::size_t>(std::bit_width(cells - 1));
     if (!sizes[k]) {
-      sizes[k] = std::make_unique<Batch>(context, std::size_t{1} << k, options.tolerance);
+      sizes[k] = std::make_unique<Batch>(context, std::size_t{1} << k, options);
     }
     return *sizes[k];
   }
 };
 
 BatchSolver::BatchSolver(const BatchOptions& options) : impl_(std::make_unique<Impl>()) {
-  if (!(options.tolerance > 0 && options.tolerance < 1) || options.batch < 1 || options.batch > 4096) {
-    throw Error("viscoelastic batches: tolerance must be in (0, 1), cells in [1, 4096]");
+  if (!(options.tolerance > 0 && options.tolerance < 1) || options.batch < 1 || options.batch > 4096 || options.most_steps < 1) {
+    throw Error("viscoelastic batches: tolerance must be in (0, 1), cells in [1, 4096], steps at least 1");
   }
   impl_->options = options;
   if (SUNContext_Create(nullptr, &impl_->context) != 0) {

@@ -19,6 +19,7 @@ namespace ballast {
 struct BatchOptions {
   double tolerance = 1e-4; ///< of CVODE's local error, relative to the law's error_scale
   int batch = 16;          ///< cells, at most 4096
+  int most_steps = 5000;   ///< of CVODE's in the unit step; more is a failure
 };
 
 struct BatchCounts {
@@ -34,6 +35,9 @@ struct BatchFailure {
   double reached = 0; ///< of the unit step
   Sym state{};    ///< there
 };
+
+/// Of a vector of CVODE's, seven values a cell, times their weights: the root mean square of the worst cell's first six; NaN if any cell has none.
+double worst_cell_norm(std::span<const double> values, std::span<const double> weights);
 
 /// Owned by one thread: SUNDIALS' context, solvers and buffers of every batch size that came up.
 class BatchSolver {

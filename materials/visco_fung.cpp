@@ -34,7 +34,7 @@ struct Ends {
 /// Of one branch, per share g_i.
 struct BranchStep {
   Sym q;
-  double stored, dissipated, work;
+  double stored, dissipated, work, floored;
 };
 
 BranchStep step_branch(const FungQlv& m, const Ends& ends, const Sym& q_n, double x) {
@@ -49,7 +49,7 @@ BranchStep step_branch(const FungQlv& m, const Ends& ends, const Sym& q_n, doubl
   const double heat = contract(climb, combine(1, q, -1, mean)) + contract(ends.strain_n, change) - (dual - dual_n);
   // Where a step is so stiff that the curvature within it makes heat negative, the work takes what is missing: second order, and the balance holds.
   const double missing = std::max(0.0, -heat);
-  return {q, energy + dual - contract(q, ends.strain), heat + missing, energy - energy_n - contract(mean, climb) + missing};
+  return {q, energy + dual - contract(q, ends.strain), heat + missing, energy - energy_n - contract(mean, climb) + missing, missing};
 }
 
 } // namespace
@@ -99,7 +99,7 @@ void advance(const FungQlv& m, const ViscoRow& row) {
     store_sym(row, 0, i, push(turn, ends.strain));
     Sym total = ends.elastic;
     const double energy = elastic_energy(m, ends.strain);
-    double stored = lasting * energy, dissipated = 0, work = lasting * (energy - elastic_energy(m, ends.strain_n));
+    double stored = lasting * energy, dissipated = 0, floored = 0, work = lasting * (energy - elastic_energy(m, ends.strain_n));
     for (std::size_t b = 0; b < m.branches; ++b) {
       const double share = m.branch[b].share;
       const BranchStep end = step_branch(m, ends, push(turn, load_sym(row, 6 * (b + 1), i)), row.dt / m.branch[b].time);
@@ -108,8 +108,12 @@ void advance(const FungQlv& m, const ViscoRow& row) {
       stored += share * end.stored;
       dissipated += share * end.dissipated;
       work += share * end.work;
+      floored += share * end.floored;
     }
     store_result(row, i, push(turn, total), stored, dissipated, work);
+    if (row.floored != nullptr) {
+      row.floored[i] = floored;
+    }
   }
 }
 

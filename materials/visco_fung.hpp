@@ -41,7 +41,8 @@ double elastic_energy(const FungQlv& m, const Sym& strain);
 Sym strain_of(const FungQlv& m, const Sym& stress);
 
 /// One step of a row. Work, free energy and dissipation balance to round-off, unless dissipation would come out below
-/// zero (by the curvature of s_e within the step, a |de|^2 of the branch's energy): then it is 0.
+/// zero (by the curvature of s_e within the step, a |de|^2 of the branch's energy): then it is 0, the work takes
+/// what is missing, and row.floored says how much.
 void advance(const FungQlv& m, const ViscoRow& row);
 
 } // namespace ballast

@@ -40,6 +40,7 @@ void add(TissueCounts& to, const TissueCounts& more) {
   to.cvode.solves += more.cvode.solves;
   to.cvode.failures += more.cvode.failures;
   to.cvode.seconds += more.cvode.seconds;
+  to.seconds += more.seconds;
 }
 
 void TissueIntegrator::size_for(std::size_t cells) {
@@ -209,6 +210,13 @@ std::optional<TissueFailure> TissueIntegrator::advance(const BergstroemBoyce& m,
   }
   if (failure) {
     return TissueFailure{failure->cell, 0, failure->reason, failure->reached, failure->state};
+  }
+  if (const int lost = first_without_number(row); lost >= 0) { // network A has no flow: nothing but its own chains stops it
+    ++counts_.no_number;
+    const auto i = static_cast<std::size_t>(lost);
+    const Sym total = load_sym(row, 0, i);
+    const bool locked = !std::isfinite(spring_modulus(m.a, trace(total)).value);
+    return TissueFailure{lost, locked ? 1UL : 0UL, 0, 1, locked ? total : load_sym(row, 6, i)};
   }
   return std::nullopt;
 }

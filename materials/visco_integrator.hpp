@@ -32,10 +32,11 @@ struct TissueOptions {
 struct TissueCounts {
   std::array<long, 4> fast{}; ///< accepted after 1, 2, 4, 8 substeps
   long over = 0;              ///< the fast path's estimate is above the tolerance (or no number)
-  long no_number = 0;         ///< of those: fails, without CVODE
+  long no_number = 0;         ///< fails without CVODE: of those, or a network A beyond its lock
   long stiff = 0;             ///< integrated by CVODE
   double worst_estimate = 0;  ///< of accepted cells
   BatchCounts cvode{};
+  double seconds = 0; ///< of all threads: rows of tissue from fields to fields, CVODE's part included
 };
 
 /// Sums; the larger worst estimate.
@@ -43,8 +44,8 @@ void add(TissueCounts& to, const TissueCounts& more);
 
 struct TissueFailure {
   int cell = 0; ///< of the row
-  std::size_t branch = 0;
-  int reason = 0;     ///< CVODE's flag; 0: the fast path gives no number
+  std::size_t branch = 0; ///< Bergstroem-Boyce: 0 network B, 1 network A (its chains beyond their lock)
+  int reason = 0;     ///< CVODE's flag; 0: no number
   double reached = 0; ///< of the step
   Sym state{};        ///< there
 };
@@ -55,8 +56,8 @@ public:
   explicit TissueIntegrator(const TissueOptions& options);
 
   /// One step; Prony rows need no integrator. Bergstroem-Boyce tensors are made unimodular first (a remap mixes them).
-  /// A branch of a cell that fails keeps its state of the start and is counted; the first is returned. The row's other cells and branches
-  /// have moved on by then: who takes the step again keeps a copy.
+  /// A branch of a cell that fails neither strains nor relaxes (it may have turned) and is counted; the first is returned. The row's other
+  /// cells and branches have moved on by then: who takes the step again keeps a copy (ale/step_undo).
   [[nodiscard]] std::optional<TissueFailure> advance(const PowerLawZener& m, const ViscoRow& row);
   [[nodiscard]] std::optional<TissueFailure> advance(const BergstroemBoyce& m, const ViscoRow& row);
 

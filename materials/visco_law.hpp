@@ -2,8 +2,8 @@
 //
 // State: plain rows of doubles, state_count of them (six a tensor), named by state_names, set_rest at the start. All may be
 // mixed by mass in a remap: deviators and strains are mean values; Bergstroem-Boyce tensors stay positive definite and are
-// made unimodular at the start of the next step. A mean's free energy is not its parts' mean: less, but for Fung's
-// law of either sign.
+// made unimodular at the start of the next step. The free energy of a mean is not its parts' mean: less, but for Fung's
+// law, whose energy is convex in the strain alone, less or more.
 #pragma once
 
 #include "materials/visco_bergstroem_boyce.hpp"

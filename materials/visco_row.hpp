@@ -26,6 +26,7 @@ struct ViscoRow {
   double* stored = nullptr;                       ///< out: free energy at the end of the step, J/m3 of initial volume
   double* dissipated = nullptr;                   ///< out: in this step, J/m3, never negative
   double* work = nullptr;                         ///< out: of the deviator in this step, J/m3
+  double* floored = nullptr;                      ///< out, may be null: what heat was raised by to be 0 (Fung), part of the work, J/m3
 };
 
 /// Names of six components, for example "prony_1_xx".
@@ -58,6 +59,20 @@ inline void store_result(const ViscoRow& row, std::size_t i, const Sym& kirchhof
   row.stored[i] = stored;
   row.dissipated[i] = dissipated;
   row.work[i] = work;
+}
+
+/// The first cell whose stress or energies are no number; -1: all are.
+inline int first_without_number(const ViscoRow& row) {
+  for (int i = 0; i < row.cells; ++i) {
+    double sum = row.stored[i] + row.dissipated[i] + row.work[i];
+    for (const double* s : row.stress) {
+      sum += s[i];
+    }
+    if (!std::isfinite(sum)) {
+      return i;
+    }
+  }
+  return -1;
 }
 
 /// A branch at the end of a step.

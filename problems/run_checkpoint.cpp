@@ -68,15 +68,17 @@ template <int Dim> bool any_tissue(const Scene<Dim>& scene) {
   });
 }
 
-/// Energies by material, then counts; seconds and the worst estimate are of no use to a restart but to its summary.
+constexpr const char* tissue_key = "tissue_account"; // once "tissue": without what was floored
+
+/// Counts, then energies by material; seconds and the worst estimate are of no use to a restart but to its summary.
 std::vector<double> pack_tissue(const Ledger& l) {
   const TissueCounts& c = l.tissue_counts;
   const auto number = [](long n) { return static_cast<double>(n); };
   std::vector<double> v = {number(l.tissue_repairs), number(c.fast[0]), number(c.fast[1]), number(c.fast[2]), number(c.fast[3]), number(c.over),
                            number(c.no_number), number(c.stiff), c.worst_estimate, number(c.cvode.batches), number(c.cvode.cells),
-                           number(c.cvode.steps), number(c.cvode.rates), number(c.cvode.solves), number(c.cvode.failures), c.cvode.seconds};
+                           number(c.cvode.steps), number(c.cvode.rates), number(c.cvode.solves), number(c.cvode.failures), c.cvode.seconds, c.seconds};
   for (const TissueEnergy& e : l.tissue) {
-    v.insert(v.end(), {e.work, e.dissipated, e.lost});
+    v.insert(v.end(), {e.work, e.dissipated, e.lost, e.floored});
   }
   return v;
 }
@@ -94,10 +96,11 @@ void unpack_tissue(const std::vector<double>& v, Ledger& l) {
     *n = count();
   }
   c.cvode.seconds = number();
+  c.seconds = number();
   l.tissue.clear();
   while (at < v.size()) {
-    const double work = number(), dissipated = number(), lost = number();
-    l.tissue.push_back({work, dissipated, lost});
+    const double work = number(), dissipated = number(), lost = number(), floored = number();
+    l.tissue.push_back({work, dissipated, lost, floored});
   }
 }
 
@@ -113,7 +116,7 @@ void write_checkpoint(const std::filesystem::path& path, const Scene<Dim>& scene
   out.put("clock/counts", counts);
   out.put("ledger", pack(scene.ledger));
   if (any_tissue(scene)) {
-    out.put("tissue", pack_tissue(scene.ledger));
+    out.put(tissue_key, pack_tissue(scene.ledger));
   }
   out.put("memory/start", std::vector<double>{memory.energy_start, memory.momentum_start[0], memory.momentum_start[1],
                                               memory.momentum_start[2], memory.next_fields, memory.next_history, memory.wall_before});
@@ -166,7 +169,7 @@ void read_checkpoint(const std::filesystem::path& path, Scene<Dim>& scene, Clock
   }
   unpack(ledger, scene.ledger);
   if (any_tissue(scene)) {
-    unpack_tissue(in.get_doubles("tissue"), scene.ledger);
+    unpack_tissue(in.get_doubles(tissue_key), scene.ledger);
   }
   const auto start = in.get_doubles("memory/start");
   memory.energy_start = start.at(0);

@@ -22,14 +22,15 @@ template <int Dim> nlohmann::ordered_json tissue_account(const Block<Dim>& b, co
     if (b.materials[m].memories > 0) {
       const TissueEnergy e = m < l.tissue.size() ? l.tissue[m] : TissueEnergy{};
       j["energy_J"][b.materials[m].material.name] = {
-          {"work", e.work}, {"stored", t.free_energy[m]}, {"dissipated", e.dissipated}, {"lost_in_remaps_and_at_interfaces", e.lost}};
+          {"work", e.work}, {"stored", t.free_energy[m]}, {"dissipated", e.dissipated}, {"lost_in_remaps_and_at_interfaces", e.lost}, {"heat_floored", e.floored}};
     }
   }
   if (!j.empty()) {
     const TissueCounts& c = l.tissue_counts;
     j["branch_steps"] = {{"by_1_substep", c.fast[0]}, {"by_2", c.fast[1]}, {"by_4", c.fast[2]}, {"by_8", c.fast[3]},
                          {"by_cvode", c.stiff}, {"above_the_tolerance", c.over - c.stiff < 0 ? 0 : c.over - c.stiff}};
-    j["cvode"] = {{"batches", c.cvode.batches}, {"steps", c.cvode.steps}, {"failures", c.cvode.failures}, {"seconds", c.cvode.seconds}};
+    j["cvode"] = {{"batches", c.cvode.batches}, {"steps", c.cvode.steps}, {"failures", c.cvode.failures}};
+    j["seconds_of_all_threads"] = {{"cvode", c.cvode.seconds}, {"fast_path_and_the_rest", c.seconds - c.cvode.seconds}}; // restarts included
     j["worst_estimate"] = c.worst_estimate;
     j["states_repaired"] = l.tissue_repairs;
   }

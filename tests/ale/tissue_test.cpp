@@ -256,6 +256,29 @@ TEST(TissueStep, WhatIsNotPositiveDefiniteIsDrawnToRestAndBooked) {
   EXPECT_TRUE(std::isfinite(b.materials[0].store.row(field::stress + 2, r)[0]));
 }
 
+TEST(TissueStep, HeatThatFungsLawRaisesToZeroIsBooked) {
+  FungQlv law{.shear = 3e5, .stiffening = 12, .branches = 1};
+  law.branch[0] = {0.5, 1e-11};
+  Scene<2> scene = tissue_scene<2>(tissue_of(law), {even_lines(0, 1, 1), even_lines(0, 1, 1), {}});
+  prepare(scene);
+  Block<2>& b = scene.blocks[0];
+  const int r = b.grid.cell_row(0, 0);
+  b.next_volume.row(r)[0] = b.volume.row(r)[0];
+  TissueIntegrator integrator{TissueOptions{}};
+  TissueScratch scratch;
+  StepSums<2> sums;
+  sums.tissue.resize(1);
+  const double zero = 0, strain = 0.03, back = -strain;
+  for (int n = 0; n < 10; ++n) { // 1e4 relaxation times a step
+    advance_tissue(b, TissueRun<2>{0, 0, 0, 0, 1, {&strain, &zero, &zero, &back, &zero}}, 1e-7, integrator, scratch, sums);
+  }
+  const TissueEnergy& e = sums.tissue[0];
+  EXPECT_GT(e.floored, 1e-6 * e.work);
+  EXPECT_LT(e.floored, 0.05 * e.work);
+  EXPECT_EQ(e.dissipated, 0);
+  EXPECT_NEAR(e.lost, 0, 1e-10 * e.work); // all in balance
+}
+
 TEST(TissueStep, ASliverForgetsAndBooksWhatItStored) {
   const TissueLaw law = few_laws()[0];
   Scene<2> scene = tissue_scene<2>(tissue_of(law), {even_lines(0, 1, 1), even_lines(0, 1, 1), {}});

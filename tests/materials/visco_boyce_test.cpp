@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 namespace ballast {
 namespace {
@@ -59,6 +60,43 @@ TEST(BergstroemBoyce, HistoriesByCvodeAreTheIndependentOnes) {
   for (const History& h : histories()) {
     for (const std::size_t stride : {1UL, 4UL}) {
       EXPECT_LT(history_error(h, by_path(BranchPath::cvode), stride), 1e-4) << h.file; // local error 1e-6 a step, up to 244 steps
+    }
+  }
+}
+
+struct Heat {
+  double heat = 0, work = 0; ///< J/m3 over a history; work without its sign
+};
+Heat heat_of(const History& h, double tolerance, std::size_t stride) {
+  const exact::ReferenceTable table(std::string(BALLAST_TEST_DATA) + "/" + h.file + ".csv");
+  const bool shear = std::string(h.file).find("shear") != std::string::npos;
+  TissueOptions options = by_path(BranchPath::cvode);
+  options.cvode.tolerance = tolerance;
+  TissueIntegrator integrator(options);
+  Points p(h.law, 1);
+  Mat before = unit_mat;
+  double t = 0;
+  Heat sum;
+  for (std::size_t r = stride; r < table.row_count(); r += stride) {
+    const Mat now = shear ? sheared(table.number(r, "k")) : stretched(table.number(r, "lambda"));
+    p.move(0, midpoint_gradient(before, now), table.number(r, "t") - t);
+    EXPECT_FALSE(integrator.advance(h.law, p.row));
+    before = now;
+    t = table.number(r, "t");
+    sum.heat += p.dissipated[0];
+    sum.work += std::abs(p.work[0]);
+  }
+  return sum;
+}
+
+TEST(BergstroemBoyce, HeatByCvodeFollowsItsToleranceThoughItHasNoSayInTheError) {
+  for (const History& h : histories()) {
+    for (const std::size_t stride : {1UL, 4UL, 12UL}) {
+      const Heat exact = heat_of(h, 1e-10, stride);
+      // Measured, of the work: at most 1.8e-3, 8e-4, 1.7e-4, 3.7e-5.
+      for (const auto& [tolerance, most] : {std::pair{1e-3, 4e-3}, {1e-4, 1.6e-3}, {1e-5, 4e-4}, {1e-6, 8e-5}}) {
+        EXPECT_NEAR(heat_of(h, tolerance, stride).heat, exact.heat, most * exact.work) << h.file << " " << stride << " " << tolerance;
+      }
     }
   }
 }
@@ -123,6 +161,31 @@ TEST(BergstroemBoyce, StressIsTheSlopeOfTheSpringsEnergy) {
     EXPECT_NEAR((1 / std::tanh(beta) - 1 / beta) / x, 1, 1e-13 + 1e-16 / (x * x)) << x; // 1/beta cancels
   }
   EXPECT_TRUE(std::isnan(spring_modulus({6e5, std::sqrt(8.0)}, 24.1).value)); // locked
+}
+
+TEST(BergstroemBoyce, ChainsOfNetworkABeyondTheirLockAreAFailure) {
+  const BergstroemBoyce law = elastomer_boyce();
+  for (const BranchPath path : {BranchPath::mixed, BranchPath::cvode}) {
+    TissueIntegrator by(by_path(path));
+    Points p(law, 3);
+    double stretch = 1;
+    std::optional<TissueFailure> failure;
+    for (int k = 0; k < 60 && !failure; ++k) {
+      p.move(0, midpoint_gradient(unit_mat, stretched(1.001)), 1);
+      p.move(1, midpoint_gradient(unit_mat, stretched(1.03)), 1);
+      failure = by.advance(law, p.row);
+      stretch *= 1.03;
+      const bool locked = stretch * stretch + 2 / stretch > 3 * 8; // lam_L^2 = 8
+      ASSERT_EQ(failure.has_value(), locked) << stretch;
+      EXPECT_TRUE(std::isfinite(norm(p.stress_of(0)) + p.stored[0]));
+    }
+    ASSERT_TRUE(failure);
+    EXPECT_EQ(failure->cell, 1);
+    EXPECT_EQ(failure->branch, 1U); // network A
+    EXPECT_EQ(failure->reason, 0);
+    EXPECT_GT(trace(failure->state), 24);
+    EXPECT_EQ(by.counts().no_number, 1);
+  }
 }
 
 TEST(BergstroemBoyce, WorkIsStoredOrDissipated) {
@@ -202,7 +265,8 @@ TEST(BergstroemBoyce, SpinTurnsAStrainedStateExactly) {
 }
 
 TEST(BergstroemBoyce, MeansOfTensorsStayPositiveDefinite) {
-  const BergstroemBoyce law = elastomer_boyce();
+  BergstroemBoyce law = elastomer_boyce();
+  law.a.lock_stretch = std::numeric_limits<double>::infinity(); // the motions go beyond
   TissueIntegrator integrator(by_path(BranchPath::mixed));
   Points p(law, 2);
   for (int k = 0; k < 400; ++k) {

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 
+#include <limits>
 #include <numeric>
 #include <thread>
 
@@ -174,6 +175,37 @@ TEST(ViscoBatch, FailureNamesCellAndStateAndSparesTheOthers) {
   EXPECT_EQ(failure->cell, 1);
   EXPECT_EQ(failure->reason, 0);
   EXPECT_EQ(fast.counts().no_number, 1);
+}
+
+TEST(ViscoBatch, NoNumberInAnyCellIsNoNorm) {
+  const std::vector<double> ones(3 * 7, 1.0);
+  for (std::size_t at = 0; at < ones.size(); ++at) {
+    std::vector<double> v = ones;
+    v[at] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(std::isnan(worst_cell_norm(v, ones)), at % 7 != 6) << at; // the dissipation has no say
+    EXPECT_EQ(std::isnan(worst_cell_norm(ones, v)), at % 7 != 6) << at;
+  }
+  std::vector<double> hot = ones;
+  std::fill(hot.begin() + 7, hot.begin() + 14, 3.0);
+  EXPECT_DOUBLE_EQ(worst_cell_norm(hot, ones), 3);
+}
+
+TEST(ViscoBatch, MotionThatIsNoNumberFailsItsCellAlone) {
+  const PowerLawZener law = gelatin_power_law();
+  TissueIntegrator by(by_path(BranchPath::cvode)), other(by_path(BranchPath::cvode));
+  Points p(law, 20), healthy(law, 20);
+  for (Points* x : {&p, &healthy}) {
+    set_motion(*x, 20, 0.03, 2e-5);
+  }
+  p.gradient[1][5] = std::numeric_limits<double>::quiet_NaN();
+  const auto failure = by.advance(law, p.row);
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->cell, 5);
+  EXPECT_EQ(by.counts().cvode.failures, 1);
+  ASSERT_FALSE(other.advance(law, healthy.row));
+  for (const std::size_t i : {0UL, 4UL, 6UL, 19UL}) {
+    EXPECT_LT(difference(p.stress_of(i), healthy.stress_of(i)), 1e-3 * norm(healthy.stress_of(i))) << i;
+  }
 }
 
 TEST(ViscoBatch, OptionsOutOfRangeAreRefused) {

@@ -102,6 +102,33 @@ TEST(Fung, WorkIsStoredOrDissipated) {
   }
 }
 
+TEST(Fung, HeatThatIsRaisedToZeroIsCounted) {
+  const FungQlv law{2e5, 12, 1, {{{0.5, 1e-4}}}};
+  std::vector<double> floored(1);
+  const auto total = [&](double dt, int steps) { // to a strain of 0.3 and back; J/m3
+    Points p(law, 1);
+    p.row.floored = floored.data();
+    double sum = 0, before = 0, raised = 0;
+    for (int k = 0; k < 2 * steps; ++k) {
+      const double e_n = p.state[0][0], e = k < steps ? 0.3 * (k + 1) / steps : 0.3 * (2 * steps - k - 1) / steps;
+      strain(law, p, e - e_n, dt);
+      EXPECT_GE(floored[0], 0);
+      EXPECT_TRUE(floored[0] == 0 || p.dissipated[0] == 0) << k; // one branch: either
+      EXPECT_NEAR(p.work[0], p.stored[0] - before + p.dissipated[0], 1e-10 * p.stored[0] + 1e-12);
+      before = p.stored[0];
+      sum += floored[0];
+      raised += p.dissipated[0] == 0 ? 1 : 0;
+    }
+    EXPECT_EQ(sum > 0, raised > 0);
+    return sum;
+  };
+  EXPECT_EQ(total(1e-8, 40), 0);
+  const double coarse = total(1, 40), fine = total(1, 80), most = elastic_energy(law, {0.3, -0.15, -0.15, 0, 0, 0});
+  EXPECT_GT(coarse, 1e-5 * most);
+  EXPECT_LT(coarse, 1e-2 * most);
+  EXPECT_NEAR(coarse / fine, 4, 0.4); // the curvature of s_e within the steps: second order
+}
+
 TEST(Fung, SpinTurnsAStrainedStateExactly) {
   const FungQlv law = tissue();
   Points spun(law, 1), still(law, 1);
