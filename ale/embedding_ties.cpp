@@ -292,6 +292,7 @@ template <int Dim> void load_layers(Scene<Dim>& scene, Embedding<Dim>& e, double
   for (std::size_t s = 0; s < scene.layers.size(); ++s) {
     Layers<Dim>& l = scene.layers[s];
     put_on(l.stack, l.load);
+    book_new_force(l.stack, l.load, dt, l.ledger);
     l.ledger.load_work += kinetic_of(l.stack, l.load) - e.kinetic[s];
   }
 }

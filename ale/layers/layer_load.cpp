@@ -54,6 +54,21 @@ template <int Dim> void take_off(LayerStack<Dim>& s, LayerLoad<Dim>& load) {
   }
 }
 
+template <int Dim> void book_new_force(const LayerStack<Dim>& s, const LayerLoad<Dim>& load, double dt, LayerLedger& ledger) {
+  const std::vector<unsigned char> held = held_nodes(s);
+  for (std::size_t q = 0; q < load.node.size(); ++q) {
+    const std::size_t n = load.node[q];
+    double more = 0; // squares
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double own = load.own[q][static_cast<Eigen::Index>(d)];
+      more += (held[n % held.size()] >> d & 1) == 0 ? s.force[d][n] * s.force[d][n] - own * own : 0.0;
+    }
+    const double change = more > 0 ? 0.125 * (dt * dt - s.step * s.step) * more / s.mass[n] : 0.0; // else it balances the elements' force, as in the step before
+    ledger.step_change -= change;
+    ledger.load_work -= change;
+  }
+}
+
 template <int Dim> void book_load(const LayerStack<Dim>& s, const LayerLoad<Dim>& load, double half, LayerLedger& ledger) {
   for (std::size_t q = 0; q < load.node.size(); ++q) {
     for (int d = 0; d < Dim; ++d) {
@@ -80,6 +95,7 @@ template <int Dim> double kinetic_of(const LayerStack<Dim>& s, const LayerLoad<D
   template Eigen::Matrix<double, D, 1> pushed<D>(double, const Eigen::Matrix<double, D, D>&, const Eigen::Matrix<double, D, 1>&, unsigned);             \
   template void put_on<D>(LayerStack<D>&, LayerLoad<D>&);                                                                                               \
   template void take_off<D>(LayerStack<D>&, LayerLoad<D>&);                                                                                             \
+  template void book_new_force<D>(const LayerStack<D>&, const LayerLoad<D>&, double, LayerLedger&);                                                      \
   template void book_load<D>(const LayerStack<D>&, const LayerLoad<D>&, double, LayerLedger&);                                                          \
   template double kinetic_of<D>(const LayerStack<D>&, const LayerLoad<D>&);
 BALLAST_INSTANTIATE(2)

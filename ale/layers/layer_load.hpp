@@ -52,6 +52,11 @@ template <int Dim> void put_on(LayerStack<Dim>& stack, LayerLoad<Dim>& load);
 /// Takes it off again.
 template <int Dim> void take_off(LayerStack<Dim>& stack, LayerLoad<Dim>& load);
 
+/// A load put on before a step dt (s) changes the account's kinetic energy by the length of the step before, and step_change takes that back. Where the
+/// load is new both entries would be far larger than what it does (a force of one short step after a long one): they are made those of dt. Their
+/// difference stays.
+template <int Dim> void book_new_force(const LayerStack<Dim>& stack, const LayerLoad<Dim>& load, double dt, LayerLedger& ledger);
+
 /// Books the load's work on the stack over `half` (s) at the velocity.
 template <int Dim> void book_load(const LayerStack<Dim>& stack, const LayerLoad<Dim>& load, double half, LayerLedger& ledger);
 

@@ -1,7 +1,9 @@
 // What clings to a stack's nodes moves with them: impulses of folds and slidelines keep the momentum of both.
 #include "ale/layers/layer_erosion.hpp"
 #include "ale/layers/layer_folds.hpp"
+#include "ale/layers/layer_forces.hpp"
 #include "ale/layers/layer_load.hpp"
+#include "ale/layers/layer_step.hpp"
 #include "ale/layers/slideline.hpp"
 #include "tests/layers/stacks.hpp"
 
@@ -80,6 +82,38 @@ TEST(LayerLoad, SlidelinesKeepMomentum) {
   for (int i = 0; i <= 6; ++i) {
     EXPECT_LE(s.velocity[1][s.node(i, 0, 1)], s.velocity[1][s.node(i, 0, 2)] + 0.1);
   }
+}
+
+/// A force of one short step after a long one: its work is what the nodes gain, and the change of the step's length costs nothing of it.
+TEST(LayerLoad, ANewForceInAShortStepWorksWhatItGives) {
+  LayerStack<2> s = two_layers();
+  constexpr double force = 1e6, dt = 1e-9;
+  LayerLoad<2> load;
+  for (std::size_t n = 0; n < s.node(0, 0, 1); ++n) {
+    load.node.push_back(n);
+    load.force.emplace_back(0, force);
+    load.added.emplace_back(LayerLoad<2>::Matrix::Zero());
+  }
+  load.spread(s.node_count());
+  LayerLedger ledger;
+  ThreadPool pool(1);
+  update_forces(s, 0, ledger, pool);
+  s.step = 1e-7;
+  const double before = kinetic_of(s, load);
+  put_on(s, load);
+  book_new_force(s, load, dt, ledger);
+  ledger.load_work += kinetic_of(s, load) - before;
+  substep<2>(s, dt, ledger, pool, {}, &load);
+  const double loaded = kinetic_of(s, load);
+  take_off(s, load);
+  ledger.load_work += kinetic_of(s, load) - loaded;
+  double gained = 0;
+  for (std::size_t n = 0; n < s.node(0, 0, 1); ++n) {
+    gained += 0.5 * s.mass[n] * s.velocity[1][n] * s.velocity[1][n];
+  }
+  EXPECT_GT(gained, 1e-4);
+  EXPECT_NEAR(ledger.load_work, gained, 0.01 * gained);
+  EXPECT_NEAR(ledger.step_change, 0, 0.01 * gained);
 }
 
 TEST(LayerErosion, GoesByBothFamiliesOrEither) {
