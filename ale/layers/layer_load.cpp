@@ -55,6 +55,9 @@ template <int Dim> void take_off(LayerStack<Dim>& s, LayerLoad<Dim>& load) {
 }
 
 template <int Dim> void book_new_force(const LayerStack<Dim>& s, const LayerLoad<Dim>& load, double dt, LayerLedger& ledger) {
+  if (!(dt < s.step)) { // the mesh's step, of which the layers may take many
+    return;
+  }
   const std::vector<unsigned char> held = held_nodes(s);
   for (std::size_t q = 0; q < load.node.size(); ++q) {
     const std::size_t n = load.node[q];

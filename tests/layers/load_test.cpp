@@ -84,6 +84,19 @@ TEST(LayerLoad, SlidelinesKeepMomentum) {
   }
 }
 
+/// A mesh's step that the layers take in parts is no new force of a longer one.
+TEST(LayerLoad, AStepTakenInPartsChangesNoEntry) {
+  LayerStack<2> s = two_layers();
+  LayerLoad<2> load = slanted_load(s);
+  load.force.assign(load.node.size(), LayerLoad<2>::Vector(0, 1e6));
+  s.step = 1e-8;
+  put_on(s, load);
+  LayerLedger ledger;
+  book_new_force(s, load, 4e-8, ledger);
+  EXPECT_EQ(ledger.load_work, 0);
+  EXPECT_EQ(ledger.step_change, 0);
+}
+
 /// A force of one short step after a long one: its work is what the nodes gain, and the change of the step's length costs nothing of it.
 TEST(LayerLoad, ANewForceInAShortStepWorksWhatItGives) {
   LayerStack<2> s = two_layers();
