@@ -132,15 +132,10 @@ template <int Dim> static CutForce<Dim> cut_force(const Scene<Dim>& scene, const
   CutForce<Dim> out;
   out.half = open_part(half, b.axisymmetric);
   const double volume = b.volume.row(c.row)[i];
-  double change = out.half.volume - c.open;
-  if (constexpr double smooth = 0.02; std::abs(change) > smooth * volume) { // else where corners meet at a saddle the open part jumps
-    const double even = 0.5 * dt * opening_rate<Dim>(scene, e, c, open_part(level_cell<Dim>(b.grid, b.position, e.now, c.cell), b.axisymmetric), u);
-    change = std::clamp(change, std::min(2 * even, 0.0) - smooth * volume, std::max(2 * even, 0.0) + smooth * volume);
-  }
-  const Pool pool = pool_of(scene, e, b, c, 0.5 * dt, change, volume);
+  const Pool pool = pool_of(scene, e, b, c, 0.5 * dt, out.half.volume - c.open, volume);
   out.compression = pool.change / pool.volume;
-  if (c.open + change > most_growth * c.open) { // a sliver that opens by itself: it has no one's pressure but its own
-    out.compression = std::max(out.compression, change / c.open);
+  if (out.half.volume > most_growth * c.open) { // a sliver that opens by itself: it has no one's pressure but its own
+    out.compression = std::max(out.compression, (out.half.volume - c.open) / c.open);
   }
   // A body does not pull; beside void nothing presses, whatever balances the deviator along the void's surface.
   const bool hollow = !(b.modulus.row(c.row)[i] > 0) || is_wisp(b, c);

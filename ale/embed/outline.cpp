@@ -184,7 +184,7 @@ private:
     const int n = s_.grid.elements[0];
     const auto add = [&](int start) {
       const OnPlane on = nearest(layer, plane(layer, low), x, start);
-      const bool there = on.segment >= 0 && on.gap <= seen_slit * least_[at(on.segment)];
+      const bool there = on.segment >= 0 && (on.behind || on.gap <= seen_slit * least_[at(on.segment)]);
       if (there) {
         parts[at(on.segment)].push_back(on.part);
       }
@@ -264,6 +264,9 @@ private:
       double in = low ? 0 : 1, free = 1 - in;
       if (!(gap_at(layer, i, low) < 0) || !covered(low, in)) {
         continue;
+      }
+      if (covered(low, free)) { // all of it
+        return {1, 1};
       }
       for (int halving = 0; halving < 20; ++halving) {
         const double middle = 0.5 * (in + free);

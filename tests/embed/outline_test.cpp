@@ -121,13 +121,18 @@ TEST(Outline, StaysOneBodyWhereALayerHasComeOff) {
 /// Layers that have gone into each other, deeper than a slit that no mesh sees is wide: nothing is open between their faces.
 TEST(Outline, HoldsWhatTwoLayersCoverTogether) {
   for (const double depth : {0.16, 0.6, 0.9}) {
-    LayerStack<2> s = torn_stack();
-    move_lower(s, [&](double&, double& z) { z += depth * mm; });
-    EXPECT_NEAR(enclosed(s, 0.3 * mm), 13 - 5 * depth, 0.03) << depth;
-    const LayerBody<2> body(s, s.alive, std::vector<double>(9, 0.3 * mm), 0.5 * mm);
-    EXPECT_TRUE(covers(body, {6 * mm, (1 + 0.5 * depth) * mm})) << depth;
-    EXPECT_TRUE(covers(body, {6 * mm, (depth + 0.05) * mm})) << depth;
-    EXPECT_FALSE(covers(body, {6 * mm, (depth - 0.05) * mm})) << depth;
+    for (const double slide : {0.0, 0.3, 0.5}) { // ends between nodes
+      LayerStack<2> s = torn_stack();
+      move_lower(s, [&](double& x, double& z) {
+        x += slide * mm;
+        z += depth * mm;
+      });
+      EXPECT_NEAR(enclosed(s, 0.3 * mm), 13 - (5 - slide) * depth, 0.03) << depth << ' ' << slide;
+      const LayerBody<2> body(s, s.alive, std::vector<double>(9, 0.3 * mm), 0.5 * mm);
+      EXPECT_TRUE(covers(body, {6 * mm, (1 + 0.5 * depth) * mm})) << depth;
+      EXPECT_TRUE(covers(body, {6 * mm, (depth + 0.05) * mm})) << depth;
+      EXPECT_FALSE(covers(body, {6 * mm, (depth - 0.05) * mm})) << depth;
+    }
   }
 }
 
