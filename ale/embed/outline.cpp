@@ -97,7 +97,7 @@ private:
       const double length = along[0] * along[0] + along[1] * along[1];
       const double where = length > 0 ? (off[0] * along[0] + off[1] * along[1]) / length : 0.0, t = std::clamp(where, 0.0, 1.0);
       const auto past = [&](double by) { return (where < -by && ends(layer, i)) || (where > 1 + by && ends(layer, i + 1)); };
-      return OnPlane{i, t, length_of(off[0] - t * along[0], off[1] - t * along[1]), lies_behind(layer, plane, i, t, x), past(-close), past(rounding)};
+      return OnPlane{i, t, length_of(off[0] - t * along[0], off[1] - t * along[1]), false, past(-close), past(rounding)};
     };
     int from = -1;
     for (int off = 0; off < n && from < 0; ++off) {
@@ -116,6 +116,7 @@ private:
         best = next;
       }
     }
+    best.behind = lies_behind(layer, plane, best.segment, best.part, x);
     return best;
   }
 

@@ -157,18 +157,28 @@ template <int Dim> void expect_row(int cells) {
 TEST(TissueStep, ShearAndSpinReachTheLawInThePlane) { expect_row<2>(70); }
 TEST(TissueStep, ShearAndSpinReachTheLawInSpace) { expect_row<3>(70); }
 
+/// One cell of tissue, and what advancing it takes.
+template <int Dim> struct OneCell {
+  explicit OneCell(const TissueLaw& law) : scene(tissue_scene<Dim>(tissue_of(law), {even_lines(0, 1, 1), even_lines(0, 1, 1), Dim == 3 ? even_lines(0, 1, 1) : std::vector<double>{}})) {
+    prepare(scene);
+    block().next_volume.row(row())[0] = block().volume.row(row())[0];
+    sums.tissue.resize(1);
+  }
+  Block<Dim>& block() { return scene.blocks[0]; }
+  int row() { return block().grid.cell_row(0, 0); }
+  void advance(const TissueRun<Dim>& run, double dt) { advance_tissue(block(), run, dt, integrator, scratch, sums); }
+
+  Scene<Dim> scene;
+  TissueIntegrator integrator{TissueOptions{}};
+  TissueScratch scratch;
+  StepSums<Dim> sums;
+};
+
 TEST(TissueStep, AnInterfaceFreesMemoryByAnElasticShear) {
   for (const TissueLaw& law : few_laws()) {
-    Scene<3> scene = tissue_scene<3>(tissue_of(law), {even_lines(0, 1, 1), even_lines(0, 1, 1), even_lines(0, 1, 1)});
-    prepare(scene);
-    Block<3>& b = scene.blocks[0];
-    MaterialSlot& slot = b.materials[0];
-    const int r = b.grid.cell_row(0, 0);
-    b.next_volume.row(r)[0] = b.volume.row(r)[0];
-    TissueIntegrator integrator{TissueOptions{}};
-    TissueScratch scratch;
-    StepSums<3> sums;
-    sums.tissue.resize(1);
+    OneCell<3> cell(law);
+    MaterialSlot& slot = cell.block().materials[0];
+    const int r = cell.row();
     double g[9] = {};
     const auto strain = [&](double scale) {
       TissueRun<3> run{0, 0, 0, 0, 1, {}};
@@ -176,7 +186,7 @@ TEST(TissueStep, AnInterfaceFreesMemoryByAnElasticShear) {
         g[q] = scale * std::cos(1.7 * static_cast<double>(q));
         run.gradient[q] = &g[q];
       }
-      advance_tissue(b, run, 1e-12, integrator, scratch, sums);
+      cell.advance(run, 1e-12);
       return deviator_of<3>(slot, r, 0);
     };
     strain(1e-3);
@@ -193,19 +203,12 @@ TEST(TissueStep, AnInterfaceFreesMemoryByAnElasticShear) {
 
 TEST(TissueStep, FreeingLongChainsDoesNotOvershoot) {
   const BergstroemBoyce law{.a = {300}, .b = {1500}, .rate = 1e-4, .base = 20, .exponent = 4};
-  Scene<2> scene = tissue_scene<2>(tissue_of(law), {even_lines(0, 1, 1), even_lines(0, 1, 1), {}});
-  prepare(scene);
-  Block<2>& b = scene.blocks[0];
-  MaterialSlot& slot = b.materials[0];
-  const int r = b.grid.cell_row(0, 0);
-  b.next_volume.row(r)[0] = b.volume.row(r)[0];
-  TissueIntegrator integrator{TissueOptions{}};
-  TissueScratch scratch;
-  StepSums<2> sums;
-  sums.tissue.resize(1);
+  OneCell<2> cell(law);
+  MaterialSlot& slot = cell.block().materials[0];
+  const int r = cell.row();
   const auto shear = [&](double by) {
     const double zero = 0;
-    advance_tissue(b, TissueRun<2>{0, 0, 0, 0, 1, {&zero, &by, &zero, &zero, &zero}}, 1e-9, integrator, scratch, sums);
+    cell.advance(TissueRun<2>{0, 0, 0, 0, 1, {&zero, &by, &zero, &zero, &zero}}, 1e-9);
     return deviator_of<2>(slot, r, 0);
   };
   for (int n = 0; n < 50; ++n) {
@@ -221,7 +224,7 @@ TEST(TissueStep, FreeingLongChainsDoesNotOvershoot) {
     before = now;
   }
   EXPECT_LT(before, 1e-3 * start);
-  EXPECT_FALSE(sums.trouble);
+  EXPECT_FALSE(cell.sums.trouble);
 }
 
 TEST(TissueStep, ACellThatHoldsFreeEnergyStaysAwakeWithoutStress) {
@@ -239,40 +242,25 @@ TEST(TissueStep, ACellThatHoldsFreeEnergyStaysAwakeWithoutStress) {
 
 TEST(TissueStep, WhatIsNotPositiveDefiniteIsDrawnToRestAndBooked) {
   const TissueLaw law = few_laws()[3];
-  Scene<2> scene = tissue_scene<2>(tissue_of(law), {even_lines(0, 1, 1), even_lines(0, 1, 1), {}});
-  prepare(scene);
-  Block<2>& b = scene.blocks[0];
-  const int r = b.grid.cell_row(0, 0);
-  b.next_volume.row(r)[0] = b.volume.row(r)[0];
-  b.materials[0].store.row(field::memory<2> + 3, r)[0] = 1.5; // a shear of b above its diagonal
-  TissueIntegrator integrator{TissueOptions{}};
-  TissueScratch scratch;
-  StepSums<2> sums;
-  sums.tissue.resize(1);
+  OneCell<2> cell(law);
+  TileStore& store = cell.block().materials[0].store;
+  store.row(field::memory<2> + 3, cell.row())[0] = 1.5; // a shear of b above its diagonal
   const double zero = 0;
-  advance_tissue(b, TissueRun<2>{0, 0, 0, 0, 1, {&zero, &zero, &zero, &zero, &zero}}, 1e-7, integrator, scratch, sums);
-  EXPECT_EQ(sums.tissue_repairs, 1);
-  EXPECT_FALSE(sums.trouble);
-  EXPECT_TRUE(std::isfinite(b.materials[0].store.row(field::stress + 2, r)[0]));
+  cell.advance(TissueRun<2>{0, 0, 0, 0, 1, {&zero, &zero, &zero, &zero, &zero}}, 1e-7);
+  EXPECT_EQ(cell.sums.tissue_repairs, 1);
+  EXPECT_FALSE(cell.sums.trouble);
+  EXPECT_TRUE(std::isfinite(store.row(field::stress + 2, cell.row())[0]));
 }
 
 TEST(TissueStep, HeatThatFungsLawRaisesToZeroIsBooked) {
   FungQlv law{.shear = 3e5, .stiffening = 12, .branches = 1};
   law.branch[0] = {0.5, 1e-11};
-  Scene<2> scene = tissue_scene<2>(tissue_of(law), {even_lines(0, 1, 1), even_lines(0, 1, 1), {}});
-  prepare(scene);
-  Block<2>& b = scene.blocks[0];
-  const int r = b.grid.cell_row(0, 0);
-  b.next_volume.row(r)[0] = b.volume.row(r)[0];
-  TissueIntegrator integrator{TissueOptions{}};
-  TissueScratch scratch;
-  StepSums<2> sums;
-  sums.tissue.resize(1);
+  OneCell<2> cell(law);
   const double zero = 0, strain = 0.03, back = -strain;
   for (int n = 0; n < 10; ++n) { // 1e4 relaxation times a step
-    advance_tissue(b, TissueRun<2>{0, 0, 0, 0, 1, {&strain, &zero, &zero, &back, &zero}}, 1e-7, integrator, scratch, sums);
+    cell.advance(TissueRun<2>{0, 0, 0, 0, 1, {&strain, &zero, &zero, &back, &zero}}, 1e-7);
   }
-  const TissueEnergy& e = sums.tissue[0];
+  const TissueEnergy& e = cell.sums.tissue[0];
   EXPECT_GT(e.floored, 1e-6 * e.work);
   EXPECT_LT(e.floored, 0.05 * e.work);
   EXPECT_EQ(e.dissipated, 0);
